@@ -1,0 +1,54 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace devlearn {
+
+/// A value or a call that devlearn refuses. It says which quantity, what was given, and what is
+/// allowed; the object that refused is left as it was.
+class InvalidValue : public std::invalid_argument {
+ public:
+  InvalidValue(std::string quantity, std::string value, std::string allowed);
+
+  const std::string& quantity() const noexcept { return quantity_; }
+  const std::string& value() const noexcept { return value_; }
+  const std::string& allowed() const noexcept { return allowed_; }
+
+ protected:
+  InvalidValue(const std::string& message, std::string quantity, std::string value,
+               std::string allowed);
+
+ private:
+  std::string quantity_, value_, allowed_;
+};
+
+/// The same for a file: it also says which file and, where there is one, which field.
+class FileError : public InvalidValue {
+ public:
+  FileError(std::string file, std::string field, std::string value, std::string allowed);
+
+  const std::string& file() const noexcept { return file_; }
+  /// Path of the field within the file, such as `obstacles[2].radius`; empty for the whole file.
+  const std::string& field() const noexcept { return quantity(); }
+
+ private:
+  std::string file_;
+};
+
+/// Throws InvalidValue unless `value` is finite and lies in [low, high]; `unit` is for the message.
+void require_in(const std::string& quantity, double value, double low, double high,
+                const char* unit = "");
+/// The same for the open interval (low, high).
+void require_between(const std::string& quantity, double value, double low, double high,
+                     const char* unit = "");
+/// The same for the half-open interval (low, high].
+void require_above(const std::string& quantity, double value, double low, double high,
+                   const char* unit = "");
+/// The same for whole numbers in [low, high].
+void require_count(const std::string& quantity, long long value, long long low, long long high);
+
+/// The shortest decimal text that reads back as `value`; for messages and files.
+std::string to_text(double value);
+
+}  // namespace devlearn

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "devlearn/choice.hpp"
+#include "devlearn/motor_memory.hpp"
+#include "devlearn/random.hpp"
+#include "devlearn/situation.hpp"
+
+namespace devlearn {
+
+/// What becomes of an effective motion that was exploited and met SMF < 0. The paper says both.
+enum class OnNegative : std::uint8_t {
+  kAbandon,  ///< step 4: it moves to M-bar_i
+  kWeaken,   ///< step 5: only its orientation falls, by Eq. 9
+};
+
+/// What is done where every motion was tried and none is effective. The paper is silent.
+enum class WhenExhausted : std::uint8_t {
+  kRetry,   ///< any motion; one that proves effective enters M_i by extension development
+  kWander,  ///< any motion; nothing is learned
+};
+
+/// The learner's parameters; the defaults are the paper's.
+struct LearnerConfig {
+  int motion_count = 5;  ///< N_M, in 1 ... 65 535
+  double eta = 0.05;     ///< orientation parameter of Eq. 9, in (0, 1)
+  double sigma = 0.3;    ///< weight of orientation against curiosity in Eq. 7, in (0, 1)
+  double c1 = 0.5;       ///< how fast curiosity wanes, Eq. 5; in [0, 1e6]
+  double c2 = 1.0;       ///< times learned at which curiosity is 1/2, Eq. 5; in [-1e6, 1e6]
+  OnNegative on_negative = OnNegative::kAbandon;
+  WhenExhausted when_exhausted = WhenExhausted::kRetry;
+
+  /// The default: step 4's reading (abandon, retry), under which the paper's results come out.
+  static LearnerConfig paper() { return {}; }
+  /// Step 5's reading, for comparison (weaken, wander).
+  static LearnerConfig step5();
+
+  /// Throws InvalidValue unless every parameter lies in its range.
+  void validate() const;
+};
+
+bool operator==(const LearnerConfig& a, const LearnerConfig& b) noexcept;
+inline bool operator!=(const LearnerConfig& a, const LearnerConfig& b) noexcept {
+  return !(a == b);
+}
+
+/// What one outcome changed.
+enum class Event : std::uint8_t {
+  kNothing = 0,     ///< an ineffective motion stayed so
+  kExtension = 1,   ///< the motion entered M_i (Eq. 10-13)
+  kRejection = 2,   ///< an explored motion moved to M-bar_i
+  kOrientation = 3, ///< Eq. 9 was applied to the orientations
+  kAbandonment = 4, ///< an exploited motion met SMF < 0 and moved to M-bar_i
+};
+
+/// The outcome of one learning step.
+struct Development {
+  SituationId situation = -1;
+  int motion = -1;
+  Event event = Event::kNothing;
+  int reduced = 0;  ///< motions that reduction development (Eq. 14-17) moved to M-bar_i
+};
+
+/// The sensorimotor developmental learner: a situation in, a motion out; how good it was in, the
+/// lists develop. It knows no robot, grid or task.
+///
+///     Learner learner(LearnerConfig{}, seed);
+///     for (;;) {
+///       const int motion = learner.choose(situation).motion;
+///       ...execute it...
+///       learner.learn(smf);  // SMF = SEF after - SEF before, Eq. 8
+///     }
+///
+/// Situations come into being when first chosen for, so memory follows experience. The same
+/// configuration, seed and outcomes give the same history on every machine. A learner is for one
+/// thread; two learners share nothing. Copies are independent and go on alike.
+class Learner {
+ public:
+  /// seed: of the stream "agent". Throws InvalidValue.
+  explicit Learner(const LearnerConfig& config = {}, std::uint64_t seed = 0);
+
+  /// Step 3: chooses a motion for a situation >= 0. Throws InvalidValue for a negative situation
+  /// or while an earlier choice waits for learn or cancel.
+  Choice choose(SituationId situation);
+
+  /// Steps 4-5: learns from the chosen motion's SMF, any finite number (Eq. 8). SMF >= 0 means
+  /// effective. Throws InvalidValue for a non-finite smf or where no choice waits.
+  Development learn(double smf);
+
+  /// The same where another motion really ran, 0 <= motion < motion_count (a safety layer's, say).
+  Development learn(double smf, int motion);
+
+  /// The waiting choice was not executed: nothing is learned. Throws InvalidValue where none waits.
+  void cancel();
+
+  /// Steps 4-5 for any situation and motion, whoever chose: delayed outcomes, several robots,
+  /// replay. A waiting choice goes on waiting. Throws InvalidValue.
+  ///
+  /// Where the motion stands decides what it means: unexplored, it is explored; effective, it is
+  /// exploited; ineffective, it is retried.
+  Development update(SituationId situation, int motion, double smf);
+
+  /// A situation's lists, as a copy; of one never experienced, every motion unexplored. Creates
+  /// nothing. Throws InvalidValue for a negative situation.
+  SituationMemory situation(SituationId situation) const;
+
+  /// Ids of the situations experienced, in the order they were first experienced.
+  std::vector<SituationId> situations() const;
+
+  /// Makes room for `situations` in all, so that up to then nothing is allocated. Throws
+  /// InvalidValue for more than 2^32 - 2, std::bad_alloc where memory does not suffice.
+  void reserve(std::size_t situations);
+
+  std::int64_t explored_count() const noexcept { return explored_count_; }    ///< NUM_RM
+  std::int64_t effective_count() const noexcept { return effective_count_; }  ///< NUM_M
+  std::size_t situations_experienced() const noexcept { return ids_.size(); }
+
+  const LearnerConfig& config() const noexcept { return config_; }
+  std::uint64_t seed() const noexcept { return seed_; }
+  /// The choice that waits for its outcome, if any.
+  std::optional<Choice> pending() const noexcept;
+
+ private:
+  static constexpr std::uint32_t kAbsent = 0xffffffffU;
+
+  std::uint32_t find(SituationId situation) const noexcept;
+  std::uint32_t find_or_add(SituationId situation);
+  void index_into(std::vector<std::uint32_t>& buckets, std::uint32_t slot) const noexcept;
+  MotorMemory memory(std::uint32_t slot) const noexcept;
+  Development develop(std::uint32_t slot, int motion, double smf) noexcept;
+  const std::uint32_t& require_pending(const char* call) const;
+
+  LearnerConfig config_;
+  std::uint64_t seed_;
+  Random random_;
+
+  // Situations in order of first experience: ids_[slot], and words_per_situation_ words of
+  // blocks_ each, seen through MotorMemory. buckets_ is an open-addressing index from id to slot.
+  std::vector<SituationId> ids_;
+  std::vector<std::uint64_t> blocks_;
+  std::vector<std::uint32_t> buckets_;
+  std::size_t words_per_situation_;
+
+  std::uint32_t pending_slot_ = kAbsent;
+  Choice pending_choice_;
+  std::int64_t explored_count_ = 0;
+  std::int64_t effective_count_ = 0;
+};
+
+}  // namespace devlearn

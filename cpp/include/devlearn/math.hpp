@@ -1,0 +1,21 @@
+#pragma once
+
+namespace devlearn {
+
+/// e^x by a fixed sequence of IEEE operations, within 1 ulp of the true value. Unlike the C
+/// library's, its last bits are the same on every machine, whatever instructions it has.
+double exponential(double x) noexcept;
+
+/// A unit vector.
+struct Direction {
+  double x = 1.0, y = 0.0;
+};
+
+/// The unit vector of a heading [degrees, counter-clockwise from the x axis], by fixed operations
+/// too: reduction to [-45, 45] degrees is exact, so multiples of 90 degrees are exact.
+Direction direction(double heading) noexcept;
+
+/// The heading brought into [0, 360) degrees; exact for every finite heading.
+double wrapped_heading(double heading) noexcept;
+
+}  // namespace devlearn

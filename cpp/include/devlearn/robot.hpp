@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "devlearn/situation.hpp"
+#include "devlearn/world.hpp"
+
+namespace devlearn {
+
+/// The robot of Fig. 1: a circle on two wheels that turns, then drives forward.
+struct RobotDef {
+  double radius = 0.1;       ///< r, in [0.01, 10] m
+  double speed = 0.1;        ///< v, in (0, 10] m/s
+  double sample_time = 0.5;  ///< t_s, in (0, 10] s; a step speed * sample_time is at most 1 m
+  double track = 0.0;        ///< between the wheels [m], for Eq. 2; 0 stands for radius, as printed
+  std::vector<double> steering_angles{-60.0, -30.0, 0.0, 30.0, 60.0};  ///< M [degrees]
+  int sonar_count = 5;          ///< in 0 ... 720
+  double sonar_fov = 180.0;     ///< the sonars' field of view about the heading, in [0, 360] degrees
+  double sonar_range = 2.0;     ///< in [0.01, 100] m
+
+  /// Throws InvalidValue unless every field lies in its range.
+  void validate() const;
+  /// Where each sonar looks, relative to the heading [degrees]: evenly over the field of view from
+  /// right to left (at 360 degrees without doubling the rear).
+  std::vector<double> sonar_angles() const;
+};
+
+bool operator==(const RobotDef& a, const RobotDef& b) noexcept;
+inline bool operator!=(const RobotDef& a, const RobotDef& b) noexcept { return !(a == b); }
+
+/// Rim speeds of the left and right wheel [m/s].
+struct WheelSpeeds {
+  double left = 0.0, right = 0.0;
+};
+
+/// The robot's body in a world: how it moves and what its sonars hear. Const throughout: a step is
+/// a pure function of (world, pose, motion). Box2D keeps global counters, so robots in several
+/// threads of one process are a data race; run them in processes.
+class Robot {
+ public:
+  /// Throws InvalidValue.
+  Robot(const World& world, const RobotDef& def);
+  ~Robot();
+  Robot(Robot&&) noexcept;
+  Robot& operator=(Robot&&) noexcept;
+
+  struct Step {
+    Pose pose;
+    bool collided = false;  ///< the body touched something
+  };
+
+  /// Eq. 1: turns by steering_angles[motion], then drives for one sample time. Where the swept
+  /// body keeps clear of everything, that is Eq. 1 exactly; otherwise Box2D resolves the drive
+  /// from this pose. The heading always ends as commanded. Throws InvalidValue for a motion
+  /// outside M or a pose that require_place refuses.
+  Step step(const Pose& pose, int motion) const;
+
+  /// The same step with Box2D all the way, in `substeps` parts (for comparisons).
+  Step step_simulated(const Pose& pose, int motion, int substeps = 15) const;
+
+  /// Echo distances from the body's rim [m], one for each sonar from right to left, by raycast;
+  /// sonar_range where nothing is heard, 0 where something touches the rim. `echoes` has room for
+  /// sonar_count values.
+  void sonar(const Pose& pose, double* echoes) const;
+  std::vector<double> sonar(const Pose& pose) const;
+
+  /// Eq. 2: wheel speeds of the turn and of the drive, each held for one sample time.
+  WheelSpeeds turn_speeds(int motion) const;
+  WheelSpeeds drive_speeds() const noexcept;
+
+  /// Throws InvalidValue unless the body fits at the pose: inside the arena and, but for Box2D's
+  /// slop of 0.005 m, in touch with nothing. `what` names the pose in the message.
+  void require_place(const Pose& pose, const char* what = "pose") const;
+
+  const RobotDef& def() const noexcept { return def_; }
+  const World& world() const noexcept { return *world_; }
+
+ private:
+  struct Physics;
+  std::shared_ptr<const World> world_;
+  RobotDef def_;
+  std::unique_ptr<Physics> physics_;
+};
+
+}  // namespace devlearn

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+
+namespace devlearn {
+
+/// The name of a sensory situation S_i: any number in 0 ... 2^63 - 1. The learner gives it no
+/// other meaning.
+using SituationId = std::int64_t;
+
+/// The robot's place and heading.
+struct Pose {
+  double x = 0.0;        ///< of the robot's centre [m]
+  double y = 0.0;        ///< of the robot's centre [m]
+  double heading = 0.0;  ///< counter-clockwise from the x axis [degrees]
+};
+
+inline bool operator==(const Pose& a, const Pose& b) noexcept {
+  return a.x == b.x && a.y == b.y && a.heading == b.heading;
+}
+inline bool operator!=(const Pose& a, const Pose& b) noexcept { return !(a == b); }
+
+/// Step 1 of the method: which sensory situation a pose is, on an even grid of cells and headings.
+///
+/// Cells are half-open (a border belongs to the cell above and to the right; the arena's own far
+/// borders to the last cells). Heading bin k is centred on k 360/headings degrees, so that the
+/// multiples never sit on a border.  id = (row * columns + column) * headings + bin.
+class SituationGrid {
+ public:
+  /// width, height: the arena's sides, in (0, 1000] m. columns, rows: cells along x and y, in
+  /// 1 ... 100 000. headings: heading bins, in 1 ... 3600. Throws InvalidValue.
+  explicit SituationGrid(double width = 5.0, double height = 5.0, int columns = 20, int rows = 20,
+                         int headings = 12);
+
+  /// The situation of a pose: x in [0, width] m, y in [0, height] m, any finite heading
+  /// [degrees]. Throws InvalidValue.
+  SituationId situation(double x, double y, double heading) const;
+
+  /// The pose at the middle of a situation's cell and heading bin. Throws InvalidValue unless
+  /// 0 <= situation < count().
+  Pose centre(SituationId situation) const;
+
+  /// N_S, the number of situations.
+  SituationId count() const noexcept;
+
+  double width() const noexcept { return width_; }
+  double height() const noexcept { return height_; }
+  int columns() const noexcept { return columns_; }
+  int rows() const noexcept { return rows_; }
+  int headings() const noexcept { return headings_; }
+
+ private:
+  double width_, height_;
+  int columns_, rows_, headings_;
+  double cell_width_, cell_height_, heading_step_;
+};
+
+}  // namespace devlearn

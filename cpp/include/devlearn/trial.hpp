@@ -1,0 +1,162 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "devlearn/evaluation.hpp"
+#include "devlearn/learner.hpp"
+#include "devlearn/record.hpp"
+#include "devlearn/robot.hpp"
+#include "devlearn/situation.hpp"
+#include "devlearn/world.hpp"
+
+namespace devlearn {
+
+/// Where d_o of Eq. 6 comes from.
+enum class ClearanceSource : std::uint8_t {
+  kGeometric,  ///< exact distance from the robot's centre to the nearest surface
+  kSonar,      ///< least echo plus the robot's radius, what a real robot has
+};
+
+/// Everything a trial needs besides the world and the seed; the defaults are the paper's.
+struct TrialConfig {
+  LearnerConfig learner;
+  StateEvaluation evaluation;
+  RobotDef robot;
+  ClearanceSource clearance_source = ClearanceSource::kGeometric;
+  bool walls_count = false;    ///< whether walls count in d_o; `sonar` needs true
+  double goal_radius = 0.1;    ///< arrived when d_g is no more than this; in (0, 100] m
+  double cell_size = 0.25;     ///< of the situation grid, in [0.001, 1000] m
+  int heading_bins = 12;       ///< of the situation grid, in 1 ... 3600
+
+  static TrialConfig paper() { return {}; }
+  static TrialConfig step5();
+
+  /// Throws InvalidValue.
+  void validate() const;
+};
+
+bool operator==(const TrialConfig& a, const TrialConfig& b) noexcept;
+inline bool operator!=(const TrialConfig& a, const TrialConfig& b) noexcept { return !(a == b); }
+
+/// What an agent knows when it chooses.
+struct Observation {
+  SituationId situation = -1;
+  Pose pose;
+  double sef = 0.0;
+  double goal_distance = 0.0;  ///< d_g [m]
+  double clearance = 0.0;      ///< d_o [m]
+  int motion_count = 0;        ///< choose one in 0 ... motion_count - 1
+};
+
+/// What an agent is told about the motion it chose.
+struct Outcome {
+  SituationId situation = -1;  ///< the next situation
+  double sef = 0.0;            ///< SEF in it
+  double smf = 0.0;            ///< as learned from: min(SMF, -1) for a collision
+  bool collided = false;
+  bool arrived = false;
+};
+
+/// Whoever chooses motions in a trial.
+class Agent {
+ public:
+  virtual ~Agent() = default;
+  virtual Choice choose(const Observation& observation) = 0;
+  virtual Development observe(const Outcome& outcome) = 0;
+  /// The choice just made was not executed.
+  virtual void cancel() {}
+  /// NUM_RM and NUM_M, for the record; 0 for agents without such lists.
+  virtual std::int64_t explored_count() const { return 0; }
+  virtual std::int64_t effective_count() const { return 0; }
+};
+
+/// The paper's learner as an agent; it shares the learner with whoever else holds it.
+class LearnerAgent final : public Agent {
+ public:
+  explicit LearnerAgent(std::shared_ptr<Learner> learner);
+  Choice choose(const Observation& observation) override;
+  Development observe(const Outcome& outcome) override;
+  void cancel() override;
+  std::int64_t explored_count() const override;
+  std::int64_t effective_count() const override;
+  const std::shared_ptr<Learner>& learner() const noexcept { return learner_; }
+
+ private:
+  std::shared_ptr<Learner> learner_;
+};
+
+/// The closed loop: world -> sense -> situation -> choice -> motion -> evaluation -> development
+/// -> record.
+///
+/// Rounds are numbered from 1. A new trial stands at the world's start, about to begin round 1.
+class Trial {
+ public:
+  /// With a learner of its own from config.learner and `seed`. Throws InvalidValue.
+  Trial(const World& world, const TrialConfig& config = {}, std::uint64_t seed = 0);
+  /// With another agent. Throws InvalidValue.
+  Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
+        std::shared_ptr<Agent> agent);
+
+  /// Called between steps at least every few milliseconds of a long run; returning true ends the
+  /// run there, with what is finished in the record.
+  using Interrupt = std::function<bool()>;
+
+  /// Whether echoes are recorded, and how a run may be ended from outside.
+  struct RunOptions {
+    bool echoes = false;
+    Interrupt interrupt;
+  };
+
+  /// One tick of the loop.
+  StepRecord step();
+  /// `steps` ticks from where the robot is, in the present round.
+  Record run(std::int64_t steps, const RunOptions& options = {});
+  /// A new round of `steps` steps from the start pose; reaching the target ends nothing.
+  Record free_learning(std::int64_t steps, const RunOptions& options = {});
+  /// `rounds` new rounds from the start pose, each until the target is reached, or failed
+  /// (arrived = false) after `step_limit` steps. A round that begins at the target has no step.
+  Record path_learning(std::int64_t rounds, std::int64_t step_limit = 10000,
+                       const RunOptions& options = {});
+
+  /// Puts the robot at the start pose for a new round.
+  void begin_round();
+  /// Puts the robot anywhere it fits for a new round. Throws InvalidValue.
+  void place(const Pose& pose);
+
+  const Pose& pose() const noexcept { return pose_; }
+  std::int32_t round() const noexcept { return round_; }
+  std::int64_t steps_in_round() const noexcept { return steps_in_round_; }
+  bool arrived() const noexcept { return state_.arrived; }
+  const World& world() const noexcept { return robot_.world(); }
+  const Robot& robot() const noexcept { return robot_; }
+  const SituationGrid& grid() const noexcept { return grid_; }
+  const TrialConfig& config() const noexcept { return config_; }
+  std::uint64_t seed() const noexcept { return seed_; }
+  const std::shared_ptr<Agent>& agent() const noexcept { return agent_; }
+  /// The paper's learner, where that is the agent; null otherwise.
+  std::shared_ptr<Learner> learner() const noexcept;
+
+ private:
+  /// What is sensed at a pose.
+  struct State {
+    SituationId situation = -1;
+    double goal_distance = 0.0, clearance = 0.0, sef = 0.0;
+    bool arrived = false;
+  };
+  State sense(const Pose& pose) const;
+
+  TrialConfig config_;
+  std::uint64_t seed_;
+  Robot robot_;
+  SituationGrid grid_;
+  std::shared_ptr<Agent> agent_;
+  Pose pose_;
+  State state_;
+  std::int32_t round_ = 1;
+  std::int64_t steps_in_round_ = 0;
+};
+
+}  // namespace devlearn

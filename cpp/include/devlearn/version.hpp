@@ -1,0 +1,10 @@
+#pragma once
+
+namespace devlearn {
+
+/// The version of the library, `major.minor.patch`.
+const char* version() noexcept;
+/// The commit it was built from, with `-dirty` where the tree had changes; `unknown` outside git.
+const char* commit() noexcept;
+
+}  // namespace devlearn

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "devlearn/situation.hpp"
+
+namespace devlearn {
+
+/// A point of the plane [m].
+struct Point {
+  double x = 0.0, y = 0.0;
+};
+inline bool operator==(const Point& a, const Point& b) noexcept { return a.x == b.x && a.y == b.y; }
+
+struct Circle {
+  Point center;
+  double radius = 0.0;  ///< in [0.01, 1000] m
+};
+
+struct Rectangle {
+  Point center;
+  double width = 0.0;   ///< along its own x axis, in [0.01, 1000] m
+  double height = 0.0;  ///< along its own y axis, in [0.01, 1000] m
+  double angle = 0.0;   ///< of its own x axis, counter-clockwise [degrees]
+};
+
+/// Any simple polygon, convex or not, its corners in either direction of turning.
+struct Polygon {
+  std::vector<Point> corners;  ///< at least 3, no two neighbours closer than 0.01 m
+};
+
+using Obstacle = std::variant<Circle, Rectangle, Polygon>;
+
+/// What a world is made of.
+struct WorldDef {
+  std::string name;          ///< for people
+  std::string description;   ///< for people
+  double width = 5.0;        ///< the arena's side along x, in [0.5, 1000] m
+  double height = 5.0;       ///< the arena's side along y, in [0.5, 1000] m
+  Pose start{0.5, 0.5, 0.0}; ///< inside the arena, outside every obstacle
+  Point target{4.5, 4.5};    ///< inside the arena, outside every obstacle
+  std::vector<Obstacle> obstacles;  ///< they may overlap each other and the walls
+};
+
+/// An arena with walls, obstacles, a start and a target: checked once, then unchanging.
+class World {
+ public:
+  /// Throws InvalidValue, naming the field as a world file would (`obstacles[2].radius`).
+  explicit World(WorldDef def = {});
+
+  /// The world in a file (the format is in docs/world-format.md and world.schema.json). Throws
+  /// FileError, naming file and field.
+  static World load(const std::string& path);
+  /// The same from JSON text; `source` stands for the file's name in errors.
+  static World parse(const std::string& json, const std::string& source = "JSON text");
+
+  /// JSON text that parses back to an equal world, to the bit.
+  std::string to_json() const;
+  /// Writes to_json() to a file: to the side first, then renamed. Throws FileError.
+  void save(const std::string& path) const;
+
+  const WorldDef& def() const noexcept { return def_; }
+
+  /// The same world with another start. Throws InvalidValue.
+  World with_start(const Pose& start) const;
+
+  /// d_o: least distance from a point to an obstacle's surface, 0 inside one, infinite where there
+  /// is no obstacle; with `walls_count` the arena's walls count too. [m], exact in closed form.
+  double clearance(Point point, bool walls_count = false) const noexcept;
+
+  /// Least distance from the segment a-b, as a moving point sweeps it, to obstacles and walls [m].
+  double swept_clearance(Point a, Point b) const noexcept;
+
+  /// One straight piece of an obstacle's outline or a wall, solid on its left.
+  struct Edge {
+    Point before, a, b, after;  ///< the edge a-b and the corners next to it
+  };
+  const std::vector<Edge>& edges() const noexcept { return edges_; }  ///< walls first
+  const std::vector<Circle>& circles() const noexcept { return circles_; }
+
+ private:
+  WorldDef def_;
+  std::vector<Edge> edges_;
+  std::vector<Circle> circles_;
+  // One polygon or rectangle: its corners, counter-clockwise, and a circle around them.
+  struct Outline {
+    std::vector<Point> corners;
+    Circle bound;
+  };
+  std::vector<Outline> outlines_;
+};
+
+}  // namespace devlearn
