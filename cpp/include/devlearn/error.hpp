@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace devlearn {
 
@@ -36,19 +37,31 @@ class FileError : public InvalidValue {
   std::string file_;
 };
 
-/// Throws InvalidValue unless `value` is finite and lies in [low, high]; `unit` is for the message.
-void require_in(const std::string& quantity, double value, double low, double high,
-                const char* unit = "");
-/// The same for the open interval (low, high).
-void require_between(const std::string& quantity, double value, double low, double high,
-                     const char* unit = "");
-/// The same for the half-open interval (low, high].
-void require_above(const std::string& quantity, double value, double low, double high,
-                   const char* unit = "");
-/// The same for whole numbers in [low, high].
-void require_count(const std::string& quantity, long long value, long long low, long long high);
-
 /// The shortest decimal text that reads back as `value`; for messages and files.
 std::string to_text(double value);
+
+[[noreturn]] void refuse_outside(std::string_view quantity, double value, char left, double low,
+                                 double high, char right, std::string_view unit);
+
+/// Throws InvalidValue unless `value` lies in [low, high] (so NaN never does); `unit` is for the
+/// message.
+inline void require_in(std::string_view quantity, double value, double low, double high,
+                       std::string_view unit = "") {
+  if (!(value >= low && value <= high)) refuse_outside(quantity, value, '[', low, high, ']', unit);
+}
+/// The same for the open interval (low, high).
+inline void require_between(std::string_view quantity, double value, double low, double high,
+                            std::string_view unit = "") {
+  if (!(value > low && value < high)) refuse_outside(quantity, value, '(', low, high, ')', unit);
+}
+/// The same for the half-open interval (low, high].
+inline void require_above(std::string_view quantity, double value, double low, double high,
+                          std::string_view unit = "") {
+  if (!(value > low && value <= high)) refuse_outside(quantity, value, '(', low, high, ']', unit);
+}
+/// Throws InvalidValue unless `value` is neither infinite nor NaN.
+void require_finite(std::string_view quantity, double value);
+/// Throws InvalidValue unless the whole number lies in [low, high].
+void require_count(std::string_view quantity, long long value, long long low, long long high);
 
 }  // namespace devlearn

@@ -50,11 +50,11 @@ inline bool operator!=(const LearnerConfig& a, const LearnerConfig& b) noexcept 
 
 /// What one outcome changed.
 enum class Event : std::uint8_t {
-  kNothing = 0,     ///< an ineffective motion stayed so
-  kExtension = 1,   ///< the motion entered M_i (Eq. 10-13)
-  kRejection = 2,   ///< an explored motion moved to M-bar_i
-  kOrientation = 3, ///< Eq. 9 was applied to the orientations
-  kAbandonment = 4, ///< an exploited motion met SMF < 0 and moved to M-bar_i
+  kNothing = 0,      ///< an ineffective motion stayed so
+  kExtension = 1,    ///< the motion entered M_i (Eq. 10-13)
+  kRejection = 2,    ///< an explored motion moved to M-bar_i
+  kOrientation = 3,  ///< Eq. 9 was applied to the orientations
+  kAbandonment = 4,  ///< an exploited motion met SMF < 0 and moved to M-bar_i
 };
 
 /// The outcome of one learning step.

@@ -9,10 +9,10 @@ namespace devlearn {
 /// What one situation holds, as a copy: three disjoint lists of motion indices that together are
 /// always M (Eq. 3-4), and for each effective motion its orientation and count.
 struct SituationMemory {
-  std::vector<int> effective;    ///< M_i: found effective, in the order they entered
-  std::vector<int> ineffective;  ///< M-bar_i: found ineffective or no longer good enough
-  std::vector<int> unexplored;   ///< RM_i: not tried yet, ascending
-  std::vector<double> orientation;           ///< o_ij of each effective motion; they sum to 1
+  std::vector<int> effective;       ///< M_i: found effective, in the order they entered
+  std::vector<int> ineffective;     ///< M-bar_i: found ineffective or no longer good enough
+  std::vector<int> unexplored;      ///< RM_i: not tried yet, ascending
+  std::vector<double> orientation;  ///< o_ij of each effective motion; they sum to 1
   std::vector<std::uint32_t> times_learned;  ///< n_ij of each effective motion; stops at 2^32 - 1
 };
 

@@ -11,19 +11,19 @@ namespace devlearn {
 
 /// Everything about one step of a trial.
 struct StepRecord {
-  std::int32_t round = 0;         ///< from 1; the round the step belongs to
-  SituationId situation = -1;     ///< before the step: S_i, in which the motion was chosen
-  std::int32_t motion = -1;       ///< index in M
-  Kind kind = Kind::kUnstated;    ///< why it was chosen
-  double sef = 0.0;               ///< after the step: SEF(t+1)
-  double smf = 0.0;               ///< SEF(t+1) - SEF(t), Eq. 8
-  double smf_used = 0.0;          ///< what was learned from: min(smf, -1) for a collision
-  bool collided = false;          ///< the body touched something during the step
-  bool arrived = false;           ///< after the step: d_g <= goal_radius
-  double goal_distance = 0.0;     ///< after the step: d_g [m]
-  double clearance = 0.0;         ///< after the step: d_o [m]
-  Event event = Event::kNothing;  ///< what the outcome changed
-  std::int32_t reduced = 0;       ///< motions that reduction development removed
+  std::int32_t round = 0;            ///< from 1; the round the step belongs to
+  SituationId situation = -1;        ///< before the step: S_i, in which the motion was chosen
+  std::int32_t motion = -1;          ///< index in M
+  Kind kind = Kind::kUnstated;       ///< why it was chosen
+  double sef = 0.0;                  ///< after the step: SEF(t+1)
+  double smf = 0.0;                  ///< SEF(t+1) - SEF(t), Eq. 8
+  double smf_used = 0.0;             ///< what was learned from: min(smf, -1) for a collision
+  bool collided = false;             ///< the body touched something during the step
+  bool arrived = false;              ///< after the step: d_g <= goal_radius
+  double goal_distance = 0.0;        ///< after the step: d_g [m]
+  double clearance = 0.0;            ///< after the step: d_o [m]
+  Event event = Event::kNothing;     ///< what the outcome changed
+  std::int32_t reduced = 0;          ///< motions that reduction development removed
   std::int64_t explored_count = 0;   ///< after the step: NUM_RM
   std::int64_t effective_count = 0;  ///< after the step: NUM_M
   Pose pose;                         ///< after the step
@@ -31,9 +31,9 @@ struct StepRecord {
 
 /// What a round came to.
 struct Round {
-  std::int32_t round = 0;    ///< its number in the trial, from 1
-  std::int64_t steps = 0;    ///< steps of it in this record
-  bool arrived = false;      ///< whether d_g <= goal_radius after any of them
+  std::int32_t round = 0;  ///< its number in the trial, from 1
+  std::int64_t steps = 0;  ///< steps of it in this record
+  bool arrived = false;    ///< whether d_g <= goal_radius after any of them
 };
 
 /// What happened, as columns of one value a step. The poses are one more a round: round i's are

@@ -27,7 +27,7 @@ inline bool operator!=(const Pose& a, const Pose& b) noexcept { return !(a == b)
 /// multiples never sit on a border.  id = (row * columns + column) * headings + bin.
 class SituationGrid {
  public:
-  /// width, height: the arena's sides, in (0, 1000] m. columns, rows: cells along x and y, in
+  /// width, height: the arena's sides, in (0, 10 000] m. columns, rows: cells along x and y, in
   /// 1 ... 100 000. headings: heading bins, in 1 ... 3600. Throws InvalidValue.
   explicit SituationGrid(double width = 5.0, double height = 5.0, int columns = 20, int rows = 20,
                          int headings = 12);

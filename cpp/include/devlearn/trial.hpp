@@ -26,10 +26,10 @@ struct TrialConfig {
   StateEvaluation evaluation;
   RobotDef robot;
   ClearanceSource clearance_source = ClearanceSource::kGeometric;
-  bool walls_count = false;    ///< whether walls count in d_o; `sonar` needs true
-  double goal_radius = 0.1;    ///< arrived when d_g is no more than this; in (0, 100] m
-  double cell_size = 0.25;     ///< of the situation grid, in [0.001, 1000] m
-  int heading_bins = 12;       ///< of the situation grid, in 1 ... 3600
+  bool walls_count = false;  ///< whether walls count in d_o; `sonar` needs true
+  double goal_radius = 0.1;  ///< arrived when d_g is no more than this; in (0, 100] m
+  double cell_size = 0.25;   ///< of the situation grid, in [0.001, 1000] m
+  int heading_bins = 12;     ///< of the situation grid, in 1 ... 3600
 
   static TrialConfig paper() { return {}; }
   static TrialConfig step5();
@@ -88,10 +88,18 @@ class LearnerAgent final : public Agent {
   std::shared_ptr<Learner> learner_;
 };
 
+/// How a run is watched.
+struct RunOptions {
+  bool echoes = false;  ///< whether the sonars' echoes are recorded
+  /// Called every 64 steps; returning true ends the run there.
+  std::function<bool()> interrupt;
+};
+
 /// The closed loop: world -> sense -> situation -> choice -> motion -> evaluation -> development
 /// -> record.
 ///
-/// Rounds are numbered from 1. A new trial stands at the world's start, about to begin round 1.
+/// A new trial stands at the world's start. Its rounds are numbered from 1; the first begins with
+/// whatever is called first.
 class Trial {
  public:
   /// With a learner of its own from config.learner and `seed`. Throws InvalidValue.
@@ -100,18 +108,9 @@ class Trial {
   Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
         std::shared_ptr<Agent> agent);
 
-  /// Called between steps at least every few milliseconds of a long run; returning true ends the
-  /// run there, with what is finished in the record.
-  using Interrupt = std::function<bool()>;
-
-  /// Whether echoes are recorded, and how a run may be ended from outside.
-  struct RunOptions {
-    bool echoes = false;
-    Interrupt interrupt;
-  };
-
-  /// One tick of the loop.
+  /// One tick of the loop. Where an agent throws, the trial is left as it was.
   StepRecord step();
+
   /// `steps` ticks from where the robot is, in the present round.
   Record run(std::int64_t steps, const RunOptions& options = {});
   /// A new round of `steps` steps from the start pose; reaching the target ends nothing.
@@ -121,14 +120,21 @@ class Trial {
   Record path_learning(std::int64_t rounds, std::int64_t step_limit = 10000,
                        const RunOptions& options = {});
 
+  /// The same, appended to a record: what is finished is kept there even where an agent throws.
+  void run(Record& record, std::int64_t steps, const RunOptions& options = {});
+  void free_learning(Record& record, std::int64_t steps, const RunOptions& options = {});
+  void path_learning(Record& record, std::int64_t rounds, std::int64_t step_limit,
+                     const RunOptions& options = {});
+
   /// Puts the robot at the start pose for a new round.
   void begin_round();
   /// Puts the robot anywhere it fits for a new round. Throws InvalidValue.
   void place(const Pose& pose);
 
   const Pose& pose() const noexcept { return pose_; }
+  /// The present round, from 1; 0 before the first.
   std::int32_t round() const noexcept { return round_; }
-  std::int64_t steps_in_round() const noexcept { return steps_in_round_; }
+  /// Whether the robot is at the target: d_g <= goal_radius.
   bool arrived() const noexcept { return state_.arrived; }
   const World& world() const noexcept { return robot_.world(); }
   const Robot& robot() const noexcept { return robot_; }
@@ -147,6 +153,8 @@ class Trial {
     bool arrived = false;
   };
   State sense(const Pose& pose) const;
+  double clearance(const Pose& pose) const;
+  bool run_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
 
   TrialConfig config_;
   std::uint64_t seed_;
@@ -155,8 +163,7 @@ class Trial {
   std::shared_ptr<Agent> agent_;
   Pose pose_;
   State state_;
-  std::int32_t round_ = 1;
-  std::int64_t steps_in_round_ = 0;
+  std::int32_t round_ = 0;
 };
 
 }  // namespace devlearn

@@ -1,0 +1,230 @@
+#include "devlearn/learner.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "devlearn/error.hpp"
+#include "devlearn/math.hpp"
+
+namespace devlearn {
+namespace {
+
+// The index is grown before more than 7/8 of its buckets are taken; longer runs of taken buckets
+// would cost more than the memory they save.
+std::size_t buckets_for(std::size_t situations) noexcept {
+  std::size_t buckets = 16;
+  while (buckets / 8 * 7 < situations) buckets *= 2;
+  return buckets;
+}
+
+// Spreads neighbouring ids over the whole index (the finaliser of SplitMix64).
+std::uint64_t scattered(SituationId situation) noexcept {
+  auto bits = static_cast<std::uint64_t>(situation);
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9U;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebU;
+  return bits ^ (bits >> 31);
+}
+
+void require_situation(SituationId situation) {
+  if (situation < 0) {
+    throw InvalidValue("situation", std::to_string(situation), "a whole number in [0, 2^63 - 1]");
+  }
+}
+
+}  // namespace
+
+LearnerConfig LearnerConfig::step5() {
+  LearnerConfig config;
+  config.on_negative = OnNegative::kWeaken;
+  config.when_exhausted = WhenExhausted::kWander;
+  return config;
+}
+
+void LearnerConfig::validate() const {
+  require_count("LearnerConfig.motion_count", motion_count, 1, 65535);
+  require_between("LearnerConfig.eta", eta, 0.0, 1.0);
+  require_between("LearnerConfig.sigma", sigma, 0.0, 1.0);
+  require_in("LearnerConfig.c1", c1, 0.0, 1e6);
+  require_in("LearnerConfig.c2", c2, -1e6, 1e6);
+}
+
+bool operator==(const LearnerConfig& a, const LearnerConfig& b) noexcept {
+  return a.motion_count == b.motion_count && a.eta == b.eta && a.sigma == b.sigma && a.c1 == b.c1 &&
+         a.c2 == b.c2 && a.on_negative == b.on_negative && a.when_exhausted == b.when_exhausted;
+}
+
+Learner::Learner(const LearnerConfig& config, std::uint64_t seed)
+    : config_((config.validate(), config)),
+      seed_(seed),
+      random_(seed, "agent"),
+      buckets_(buckets_for(0), kAbsent),
+      words_per_situation_(MotorMemory::bytes(config.motion_count) / sizeof(std::uint64_t)) {}
+
+Choice Learner::choose(SituationId situation) {
+  require_situation(situation);
+  if (pending_slot_ != kAbsent) {
+    throw InvalidValue("Learner.choose", "a second choice before the first met its outcome",
+                       "learn() or cancel() between two choices");
+  }
+  const std::uint32_t slot = find_or_add(situation);
+  pending_choice_ = choose_motion(memory(slot), config_, random_);
+  pending_slot_ = slot;
+  return pending_choice_;
+}
+
+Development Learner::learn(double smf) {
+  const std::uint32_t slot = require_pending("Learner.learn");
+  require_finite("smf", smf);
+  pending_slot_ = kAbsent;
+  return develop(slot, pending_choice_.motion, smf);
+}
+
+Development Learner::learn(double smf, int motion) {
+  const std::uint32_t slot = require_pending("Learner.learn");
+  require_finite("smf", smf);
+  require_count("motion", motion, 0, config_.motion_count - 1);
+  pending_slot_ = kAbsent;
+  return develop(slot, motion, smf);
+}
+
+void Learner::cancel() {
+  require_pending("Learner.cancel");
+  pending_slot_ = kAbsent;
+}
+
+Development Learner::update(SituationId situation, int motion, double smf) {
+  require_situation(situation);
+  require_count("motion", motion, 0, config_.motion_count - 1);
+  require_finite("smf", smf);
+  return develop(find_or_add(situation), motion, smf);
+}
+
+// Steps 4 and 5.
+Development Learner::develop(std::uint32_t slot, int motion, double smf) noexcept {
+  Development development;
+  development.situation = ids_[slot];
+  development.motion = motion;
+
+  MotorMemory situation = memory(slot);
+  const int effective_before = situation.effective_count();
+  const MotorMemory::Position position = situation.find(motion);
+  const bool effective = smf >= 0.0;
+
+  switch (position.list) {
+    case MotorMemory::List::kUnexplored:
+      ++explored_count_;
+      if (effective) {
+        situation.extend(position);
+        development.event = Event::kExtension;
+      } else {
+        situation.reject(position.index);
+        development.event = Event::kRejection;
+      }
+      break;
+
+    case MotorMemory::List::kEffective:
+      situation.count_learning(position.index);
+      if (!effective && config_.on_negative == OnNegative::kAbandon) {
+        situation.abandon(position.index);
+        development.event = Event::kAbandonment;
+      } else {
+        // Below D = -1 Eq. 9 would leave [0, 1].
+        const double d = std::max(-1.0, 1.0 - exponential(-config_.eta * smf));
+        situation.orient(position.index, d);
+        development.event = Event::kOrientation;
+        development.reduced = situation.reduce();
+      }
+      break;
+
+    case MotorMemory::List::kIneffective:
+      if (effective && config_.when_exhausted == WhenExhausted::kRetry) {
+        situation.extend(position);
+        development.event = Event::kExtension;
+      }
+      break;
+  }
+  effective_count_ += situation.effective_count() - effective_before;
+  return development;
+}
+
+SituationMemory Learner::situation(SituationId situation) const {
+  require_situation(situation);
+  const std::uint32_t slot = find(situation);
+  if (slot != kAbsent) return memory(slot).copy();
+  std::vector<std::uint64_t> storage(words_per_situation_);
+  MotorMemory unexperienced(storage.data(), config_.motion_count);
+  unexperienced.clear();
+  return unexperienced.copy();
+}
+
+std::vector<SituationId> Learner::situations() const { return ids_; }
+
+std::optional<Choice> Learner::pending() const noexcept {
+  if (pending_slot_ == kAbsent) return std::nullopt;
+  return pending_choice_;
+}
+
+const std::uint32_t& Learner::require_pending(const char* call) const {
+  if (pending_slot_ == kAbsent) {
+    throw InvalidValue(call, "no choice that waits for its outcome", "a choose() before it");
+  }
+  return pending_slot_;
+}
+
+// --- the situations experienced ----------------------------------------------------------------
+
+MotorMemory Learner::memory(std::uint32_t slot) const noexcept {
+  // The view serves reading and developing alike; const members only read through it.
+  auto* const words = const_cast<std::uint64_t*>(blocks_.data());
+  return {words + slot * words_per_situation_, config_.motion_count};
+}
+
+std::uint32_t Learner::find(SituationId situation) const noexcept {
+  const std::size_t mask = buckets_.size() - 1;
+  for (std::size_t bucket = scattered(situation) & mask;; bucket = (bucket + 1) & mask) {
+    const std::uint32_t slot = buckets_[bucket];
+    if (slot == kAbsent || ids_[slot] == situation) return slot;
+  }
+}
+
+std::uint32_t Learner::find_or_add(SituationId situation) {
+  const std::uint32_t found = find(situation);
+  if (found != kAbsent) return found;
+
+  // Everything that may fail comes first, so that a failed allocation changes nothing.
+  const std::size_t count = ids_.size() + 1;
+  if (count > ids_.capacity() || count * words_per_situation_ > blocks_.capacity() ||
+      buckets_for(count) > buckets_.size()) {
+    reserve(std::max(count, std::min<std::size_t>(ids_.size() * 2, kAbsent - 1)));
+  }
+  const auto slot = static_cast<std::uint32_t>(ids_.size());
+  ids_.push_back(situation);
+  blocks_.resize(blocks_.size() + words_per_situation_);
+  memory(slot).clear();
+  index_into(buckets_, slot);
+  return slot;
+}
+
+void Learner::reserve(std::size_t situations) {
+  if (situations >= kAbsent) {
+    throw InvalidValue("situations", std::to_string(situations), "at most 4294967294");
+  }
+  ids_.reserve(situations);
+  blocks_.reserve(situations * words_per_situation_);
+  if (const std::size_t size = buckets_for(situations); size > buckets_.size()) {
+    std::vector<std::uint32_t> buckets(size, kAbsent);
+    for (std::size_t slot = 0; slot < ids_.size(); ++slot) {
+      index_into(buckets, static_cast<std::uint32_t>(slot));
+    }
+    buckets_ = std::move(buckets);
+  }
+}
+
+void Learner::index_into(std::vector<std::uint32_t>& buckets, std::uint32_t slot) const noexcept {
+  const std::size_t mask = buckets.size() - 1;
+  std::size_t bucket = scattered(ids_[slot]) & mask;
+  while (buckets[bucket] != kAbsent) bucket = (bucket + 1) & mask;
+  buckets[bucket] = slot;
+}
+
+}  // namespace devlearn

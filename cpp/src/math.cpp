@@ -1,0 +1,84 @@
+#include "devlearn/math.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace devlearn {
+namespace {
+
+// Horner's rule, highest power first.
+template <int N>
+double polynomial(double x, const double (&coefficients)[N]) noexcept {
+  double sum = coefficients[0];
+  for (int i = 1; i < N; ++i) sum = sum * x + coefficients[i];
+  return sum;
+}
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Taylor series, enough for a double on [-pi/4, pi/4].
+double sine(double x) noexcept {
+  const double s = x * x;
+  static constexpr double c[] = {
+      -1.0 / 1307674368000, 1.0 / 6227020800, -1.0 / 39916800, 1.0 / 362880,
+      -1.0 / 5040,          1.0 / 120,        -1.0 / 6};
+  return x + x * (s * polynomial(s, c));
+}
+
+double cosine(double x) noexcept {
+  const double s = x * x;
+  static constexpr double c[] = {
+      1.0 / 20922789888000, -1.0 / 87178291200, 1.0 / 479001600, -1.0 / 3628800,
+      1.0 / 40320,          -1.0 / 720,         1.0 / 24};
+  return 1.0 - (0.5 * s - s * s * polynomial(s, c));
+}
+
+}  // namespace
+
+double exponential(double x) noexcept {
+  // e^x = 2^k e^r with |r| <= ln(2)/2; ln 2 is split so that x - k ln2 keeps its low bits.
+  constexpr double kInverseLn2 = 1.44269504088896340736;
+  constexpr double kLn2High = 0x1.62e42fee00000p-1;
+  constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
+  if (std::isnan(x)) return x;
+  if (x > 709.79) return std::numeric_limits<double>::infinity();
+  if (x < -745.2) return 0.0;
+
+  const double k = std::floor(x * kInverseLn2 + 0.5);
+  const double high = x - k * kLn2High;
+  const double low = k * kLn2Low;
+  const double r = high - low;
+  const double lost = (high - r) - low;  // what rounding r dropped
+  static constexpr double c[] = {1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
+                                 1.0 / 362880,     1.0 / 40320,     1.0 / 5040,     1.0 / 720,
+                                 1.0 / 120,        1.0 / 24,        1.0 / 6,        0.5};
+  const double power = 1.0 + (r + (r * r * polynomial(r, c) + lost));
+  return std::ldexp(power, static_cast<int>(k));
+}
+
+double wrapped_heading(double heading) noexcept {
+  if (heading >= 0.0 && heading < 360.0) return heading;
+  double wrapped = std::fmod(heading, 360.0);
+  if (wrapped < 0.0) wrapped += 360.0;
+  // A tiny negative heading rounds up to 360.
+  return wrapped < 360.0 ? wrapped + 0.0 : 0.0;
+}
+
+Direction direction(double heading) noexcept {
+  const double wrapped = wrapped_heading(heading);
+  const int quarter = static_cast<int>(std::floor(wrapped / 90.0 + 0.5));
+  const double angle = (wrapped - 90.0 * quarter) * (kPi / 180.0);
+  const double c = cosine(angle), s = sine(angle);
+  switch (quarter % 4) {
+    case 0:
+      return {c, s};
+    case 1:
+      return {0.0 - s, c};
+    case 2:
+      return {0.0 - c, 0.0 - s};
+    default:
+      return {s, 0.0 - c};
+  }
+}
+
+}  // namespace devlearn

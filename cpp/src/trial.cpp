@@ -1,0 +1,261 @@
+#include "devlearn/trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "devlearn/error.hpp"
+
+namespace devlearn {
+namespace {
+
+// A collision is never effective, whatever it gained.
+constexpr double kCollisionSmf = -1.0;
+
+constexpr std::int64_t kStepsBetweenInterrupts = 64;
+
+// Cells of cell_size over the arena, from its origin; the last ones may reach beyond it.
+SituationGrid grid_over(const World& world, const TrialConfig& config) {
+  const auto cells = [&](double side) {
+    return static_cast<int>(std::max(1.0, std::ceil(side / config.cell_size - 1e-9)));
+  };
+  const auto covered = [&](double side) { return std::max(side, cells(side) * config.cell_size); };
+  const double width = world.def().width, height = world.def().height;
+  return SituationGrid(covered(width), covered(height), cells(width), cells(height),
+                       config.heading_bins);
+}
+
+std::shared_ptr<Agent> paper_agent(const TrialConfig& config, std::uint64_t seed) {
+  return std::make_shared<LearnerAgent>(std::make_shared<Learner>(config.learner, seed));
+}
+
+const LearnerAgent* as_learner_agent(const Agent* agent) {
+  return dynamic_cast<const LearnerAgent*>(agent);
+}
+
+}  // namespace
+
+TrialConfig TrialConfig::step5() {
+  TrialConfig config;
+  config.learner = LearnerConfig::step5();
+  return config;
+}
+
+void TrialConfig::validate() const {
+  learner.validate();
+  evaluation.validate();
+  robot.validate();
+  require_above("TrialConfig.goal_radius", goal_radius, 0.0, 100.0, "m");
+  require_in("TrialConfig.cell_size", cell_size, 0.001, 1000.0, "m");
+  require_count("TrialConfig.heading_bins", heading_bins, 1, 3600);
+  if (clearance_source == ClearanceSource::kSonar) {
+    if (!walls_count) {
+      throw InvalidValue("TrialConfig.walls_count", "false with clearance_source sonar",
+                         "true: an echo does not say whether it came from a wall");
+    }
+    require_count("TrialConfig.robot.sonar_count with clearance_source sonar", robot.sonar_count, 1,
+                  720);
+  }
+  const auto motions = static_cast<long long>(robot.steering_angles.size());
+  if (learner.motion_count != motions) {
+    throw InvalidValue("TrialConfig.learner.motion_count", std::to_string(learner.motion_count),
+                       std::to_string(motions) + ", the number of robot.steering_angles");
+  }
+}
+
+bool operator==(const TrialConfig& a, const TrialConfig& b) noexcept {
+  return a.learner == b.learner && a.evaluation == b.evaluation && a.robot == b.robot &&
+         a.clearance_source == b.clearance_source && a.walls_count == b.walls_count &&
+         a.goal_radius == b.goal_radius && a.cell_size == b.cell_size &&
+         a.heading_bins == b.heading_bins;
+}
+
+// --- the paper's learner as an agent -----------------------------------------------------------
+
+LearnerAgent::LearnerAgent(std::shared_ptr<Learner> learner) : learner_(std::move(learner)) {
+  if (!learner_) throw InvalidValue("LearnerAgent.learner", "null", "a learner");
+}
+
+Choice LearnerAgent::choose(const Observation& observation) {
+  return learner_->choose(observation.situation);
+}
+
+Development LearnerAgent::observe(const Outcome& outcome) { return learner_->learn(outcome.smf); }
+
+void LearnerAgent::cancel() { learner_->cancel(); }
+
+std::int64_t LearnerAgent::explored_count() const { return learner_->explored_count(); }
+
+std::int64_t LearnerAgent::effective_count() const { return learner_->effective_count(); }
+
+// --- the trial ---------------------------------------------------------------------------------
+
+Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed)
+    : Trial(world, config, seed, paper_agent(config, seed)) {}
+
+Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
+             std::shared_ptr<Agent> agent)
+    : config_((config.validate(), config)),
+      seed_(seed),
+      robot_(world, config.robot),
+      grid_(grid_over(world, config)),
+      agent_(std::move(agent)),
+      pose_(world.def().start) {
+  if (!agent_) throw InvalidValue("Trial.agent", "null", "an agent");
+  if (const auto paper = learner()) {
+    const int motions = paper->config().motion_count;
+    if (motions != config.learner.motion_count) {
+      throw InvalidValue(
+          "Trial.agent.config.motion_count", std::to_string(motions),
+          std::to_string(config.learner.motion_count) + ", the number of robot.steering_angles");
+    }
+  }
+  robot_.require_place(pose_, "start");
+  state_ = sense(pose_);
+}
+
+StepRecord Trial::step() {
+  if (round_ == 0) begin_round();
+  const State before = state_;
+
+  // situation -> choice
+  const Choice choice = agent_->choose({before.situation, pose_, before.sef, before.goal_distance,
+                                        before.clearance, config_.learner.motion_count});
+  if (choice.motion < 0 || choice.motion >= config_.learner.motion_count) {
+    agent_->cancel();
+    require_count("agent's motion", choice.motion, 0, config_.learner.motion_count - 1);
+  }
+
+  // choice -> motion (Eq. 1)
+  const Robot::Step moved = robot_.step(pose_, choice.motion);
+
+  // motion -> next situation and its SEF (Eq. 6)
+  const State after = sense(moved.pose);
+
+  // evaluation (Eq. 8)
+  const double smf = after.sef - before.sef;
+  const double smf_used = moved.collided ? std::min(smf, kCollisionSmf) : smf;
+
+  // development (Eq. 9-17)
+  const Development development =
+      agent_->observe({after.situation, after.sef, smf_used, moved.collided, after.arrived});
+
+  // record
+  pose_ = moved.pose;
+  state_ = after;
+  StepRecord step;
+  step.round = round_;
+  step.situation = before.situation;
+  step.motion = choice.motion;
+  step.kind = choice.kind;
+  step.sef = after.sef;
+  step.smf = smf;
+  step.smf_used = smf_used;
+  step.collided = moved.collided;
+  step.arrived = after.arrived;
+  step.goal_distance = after.goal_distance;
+  step.clearance = after.clearance;
+  step.event = development.event;
+  step.reduced = development.reduced;
+  step.explored_count = agent_->explored_count();
+  step.effective_count = agent_->effective_count();
+  step.pose = moved.pose;
+  return step;
+}
+
+Trial::State Trial::sense(const Pose& pose) const {
+  State state;
+  state.situation = grid_.situation(pose.x, pose.y, pose.heading);
+  const double dx = pose.x - world().def().target.x;
+  const double dy = pose.y - world().def().target.y;
+  state.goal_distance = std::sqrt(dx * dx + dy * dy);
+  state.clearance = clearance(pose);
+  state.sef = config_.evaluation(state.goal_distance, state.clearance);
+  state.arrived = state.goal_distance <= config_.goal_radius;
+  return state;
+}
+
+// d_o of Eq. 6.
+double Trial::clearance(const Pose& pose) const {
+  if (config_.clearance_source == ClearanceSource::kGeometric) {
+    return world().clearance({pose.x, pose.y}, config_.walls_count);
+  }
+  const std::vector<double> echoes = robot_.sonar(pose);
+  return *std::min_element(echoes.begin(), echoes.end()) + config_.robot.radius;
+}
+
+void Trial::begin_round() { place(world().def().start); }
+
+void Trial::place(const Pose& pose) {
+  robot_.require_place(pose);
+  const State state = sense(pose);
+  pose_ = pose;
+  state_ = state;
+  ++round_;
+}
+
+void Trial::run(Record& record, std::int64_t steps, const RunOptions& options) {
+  require_count("steps", steps, 0, std::int64_t{1} << 40);
+  if (round_ == 0) begin_round();
+  run_on(record, steps, false, options);
+}
+
+void Trial::free_learning(Record& record, std::int64_t steps, const RunOptions& options) {
+  require_count("steps", steps, 0, std::int64_t{1} << 40);
+  begin_round();
+  run_on(record, steps, false, options);
+}
+
+void Trial::path_learning(Record& record, std::int64_t rounds, std::int64_t step_limit,
+                          const RunOptions& options) {
+  require_count("rounds", rounds, 0, std::int64_t{1} << 30);
+  require_count("step_limit", step_limit, 1, std::int64_t{1} << 40);
+  for (std::int64_t i = 0; i < rounds; ++i) {
+    begin_round();
+    if (!run_on(record, step_limit, true, options)) return;
+  }
+}
+
+// Steps of the present round, into the record; false where it was interrupted.
+bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
+                   const RunOptions& options) {
+  if (options.echoes) record.sonar_count = config_.robot.sonar_count;
+  record.begin_round(round_, pose_);
+  if (state_.arrived && steps > 0 && until_arrival) record.rounds.back().arrived = true;
+  for (std::int64_t i = 0; i < steps && !(until_arrival && state_.arrived); ++i) {
+    if (options.interrupt && i % kStepsBetweenInterrupts == 0 && options.interrupt()) return false;
+    record.append(step());
+    if (options.echoes) {
+      const std::vector<double> echoes = robot_.sonar(pose_);
+      record.echoes.insert(record.echoes.end(), echoes.begin(), echoes.end());
+    }
+  }
+  return true;
+}
+
+Record Trial::run(std::int64_t steps, const RunOptions& options) {
+  Record record;
+  run(record, steps, options);
+  return record;
+}
+
+Record Trial::free_learning(std::int64_t steps, const RunOptions& options) {
+  Record record;
+  free_learning(record, steps, options);
+  return record;
+}
+
+Record Trial::path_learning(std::int64_t rounds, std::int64_t step_limit,
+                            const RunOptions& options) {
+  Record record;
+  path_learning(record, rounds, step_limit, options);
+  return record;
+}
+
+std::shared_ptr<Learner> Trial::learner() const noexcept {
+  const LearnerAgent* paper = as_learner_agent(agent_.get());
+  return paper == nullptr ? nullptr : paper->learner();
+}
+
+}  // namespace devlearn
