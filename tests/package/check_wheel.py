@@ -1,0 +1,33 @@
+"""Checks what a wheel holds: the package and nothing else. Argument: the wheel."""
+
+import re
+import sys
+import zipfile
+from pathlib import Path
+
+wheel = Path(sys.argv[1])
+source = Path(__file__).resolve().parents[2]
+with zipfile.ZipFile(wheel) as archive:
+    names = {name for name in archive.namelist() if not name.endswith("/")}
+
+package = source / "python" / "devlearn"
+expected = {
+    path.relative_to(package.parent).as_posix()
+    for path in package.rglob("*")
+    if path.is_file() and "__pycache__" not in path.parts
+}
+info = {name for name in names if re.match(r"devlearn-[^/]+\.dist-info/", name)}
+compiled = {name for name in names if re.fullmatch(r"devlearn/_core\.[^/]+\.so", name)}
+
+problems = [f"is missing: {name}" for name in sorted(expected - names)]
+problems += [f"does not belong: {name}" for name in sorted(names - expected - info - compiled)]
+if len(compiled) != 1:
+    problems.append(f"compiled modules: {sorted(compiled)}, expected one")
+if not any(name.endswith("LICENSE") for name in info):
+    problems.append("is missing: LICENSE")
+
+for problem in problems:
+    print(f"{wheel.name}: {problem}", file=sys.stderr)
+if problems:
+    sys.exit(1)
+print(f"{wheel.name}: {len(names)} files, {wheel.stat().st_size // 1024} KiB")
