@@ -1,0 +1,165 @@
+"""The rules of who may know whom, read from the sources, and the hygiene of the tree."""
+
+import ast
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SOURCE = Path(__file__).resolve().parents[2]
+HEADERS = SOURCE / "cpp" / "include" / "devlearn"
+SOURCES = SOURCE / "cpp" / "src"
+PACKAGE = SOURCE / "python" / "devlearn"
+
+
+def library(name):
+    """Names of the sources and headers that CMakeLists.txt gives to a library."""
+    text = (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8")
+    lists = re.search(rf"devlearn_library\({name}\s+SOURCES(.*?)HEADERS(.*?)\)", text, re.DOTALL)
+    sources = {Path(word).name for word in lists[1].split() if "$" not in word}
+    return sources, set(lists[2].split())
+
+
+CORE_SOURCES, CORE_HEADERS = library("core")
+SIM_SOURCES, SIM_HEADERS = library("sim")
+
+
+def includes(path):
+    """What a file includes: pairs of the delimiter and the name."""
+    return re.findall(
+        r'^\s*#\s*include\s*([<"])([^>"]+)', path.read_text(encoding="utf-8"), re.MULTILINE
+    )
+
+
+def own(path):
+    """The public headers of devlearn that a file includes."""
+    return {name.split("/", 1)[1] for _, name in includes(path) if name.startswith("devlearn/")}
+
+
+def foreign(path):
+    """What a file includes that is neither devlearn's nor the C++ library's."""
+    found = {name for _, name in includes(path) if not name.startswith("devlearn/")}
+    return {name for name in found if "/" in name or "." in name} - {
+        private.name for private in SOURCES.glob("*.hpp")
+    }
+
+
+def test_every_header_and_source_belongs_to_one_library():
+    assert not CORE_HEADERS & SIM_HEADERS
+    assert not CORE_SOURCES & SIM_SOURCES
+    assert {path.name for path in HEADERS.iterdir()} == CORE_HEADERS | SIM_HEADERS
+    assert {path.name for path in SOURCES.glob("*.cpp")} == CORE_SOURCES | SIM_SOURCES
+
+
+@pytest.mark.parametrize("name", sorted(CORE_HEADERS))
+def test_a_core_header_needs_only_core_and_the_standard_library(name):
+    assert own(HEADERS / name) <= CORE_HEADERS
+    assert foreign(HEADERS / name) == set()
+
+
+@pytest.mark.parametrize("name", sorted(CORE_SOURCES))
+def test_a_core_source_needs_only_core_and_eigen(name):
+    assert own(SOURCES / name) <= CORE_HEADERS
+    assert {other for other in foreign(SOURCES / name) if not other.startswith("Eigen/")} == set()
+
+
+@pytest.mark.parametrize("name", sorted(SIM_HEADERS))
+def test_a_sim_header_shows_nobody_else_s_types(name):
+    assert foreign(HEADERS / name) == set()
+
+
+@pytest.mark.parametrize("name", sorted(SIM_SOURCES))
+def test_a_sim_source_knows_no_python(name):
+    assert all(
+        other.startswith(("box2d/", "nlohmann/", "Eigen/")) for other in foreign(SOURCES / name)
+    )
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in SOURCES.glob("*.hpp")))
+def test_a_private_header_of_core_knows_no_sim(name):
+    users = {path.name for path in SOURCES.glob("*.cpp") if name in dict(includes(path)).values()}
+    if users & CORE_SOURCES:
+        assert own(SOURCES / name) <= CORE_HEADERS
+        assert all(other.startswith("Eigen/") for other in foreign(SOURCES / name))
+
+
+def test_core_draws_and_computes_with_its_own_functions_only():
+    owned = re.compile(
+        r"\bstd::(exp|sin|cos|tan|atan2|pow|log|uniform_\w+_distribution|mt19937\w*|shuffle"
+        r"|random_device)\b"
+    )
+    files = [SOURCES / name for name in CORE_SOURCES] + [HEADERS / name for name in CORE_HEADERS]
+    found = {
+        (path.name, match[0])
+        for path in files
+        for match in owned.finditer(re.sub(r"//.*", "", path.read_text(encoding="utf-8")))
+    }
+    assert found == set()
+
+
+def modules_after(statement):
+    """Names of all modules loaded once a fresh interpreter ran the statement."""
+    code = f"import sys\n{statement}\nprint(*sys.modules, sep='\\n')"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(run.stdout.split())
+
+
+def test_importing_devlearn_loads_no_plotting():
+    loaded = modules_after("import devlearn")
+    assert "devlearn._core" in loaded
+    assert not {name for name in loaded if name.split(".")[0] in {"matplotlib", "PIL"}}
+
+
+def test_plots_only_read():
+    tree = ast.parse((PACKAGE / "plots.py").read_text(encoding="utf-8"))
+    imported, called = set(), set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom):
+            imported |= {alias.name for alias in node.names} | {(node.module or "").split(".")[-1]}
+        elif isinstance(node, ast.Import):
+            imported |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            called.add(node.func.attr)
+    assert not imported & {"Trial", "experiments", "report", "cli"}
+    running = {"free_learning", "path_learning", "learn", "update", "choose", "begin_round"}
+    assert not called & running
+
+
+def tracked_files():
+    try:
+        run = subprocess.run(
+            ["git", "ls-files", "-z"], cwd=SOURCE, capture_output=True, text=True, check=True
+        )
+    except (OSError, subprocess.CalledProcessError):
+        pytest.skip("not a git work tree")
+    return [SOURCE / name for name in run.stdout.split("\0") if name]
+
+
+def text_of(path):
+    try:
+        return path.read_text(encoding="utf-8")
+    except (UnicodeDecodeError, OSError):
+        return ""  # a picture, a link, or removed
+
+
+def test_no_file_names_a_path_of_somebody_s_machine():
+    path_of_a_machine = re.compile(r"(?<![\w.:/-])/(home|root|work|Users)/\w")
+    found = {
+        (path.relative_to(SOURCE).as_posix(), match[0])
+        for path in tracked_files()
+        for match in path_of_a_machine.finditer(text_of(path))
+    }
+    assert found == set()
+
+
+def test_every_link_between_documents_leads_somewhere():
+    broken = {
+        (path.name, target)
+        for path in tracked_files()
+        if path.suffix == ".md"
+        for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text_of(path))
+        if ":" not in target and not (path.parent / target).exists()
+    }
+    assert broken == set()
