@@ -15,9 +15,9 @@ struct RobotDef {
   double sample_time = 0.5;  ///< t_s, in (0, 10] s; a step speed * sample_time is at most 1 m
   double track = 0.0;        ///< between the wheels [m], for Eq. 2; 0 stands for radius, as printed
   std::vector<double> steering_angles{-60.0, -30.0, 0.0, 30.0, 60.0};  ///< M [degrees]
-  int sonar_count = 5;          ///< in 0 ... 720
-  double sonar_fov = 180.0;     ///< the sonars' field of view about the heading, in [0, 360] degrees
-  double sonar_range = 2.0;     ///< in [0.01, 100] m
+  int sonar_count = 5;                                                 ///< in 0 ... 720
+  double sonar_fov = 180.0;  ///< the sonars' field of view about the heading, in [0, 360] degrees
+  double sonar_range = 2.0;  ///< in [0.01, 100] m
 
   /// Throws InvalidValue unless every field lies in its range.
   void validate() const;
@@ -78,6 +78,10 @@ class Robot {
 
  private:
   struct Physics;
+
+  double steering_angle(int motion) const;
+  bool fits(Point centre) const noexcept;
+
   std::shared_ptr<const World> world_;
   RobotDef def_;
   std::unique_ptr<Physics> physics_;
