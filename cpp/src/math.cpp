@@ -57,7 +57,7 @@ double exponential(double x) noexcept {
 }
 
 double wrapped_heading(double heading) noexcept {
-  if (heading >= 0.0 && heading < 360.0) return heading;
+  if (heading >= 0.0 && heading < 360.0) return heading + 0.0;  // no -0
   double wrapped = std::fmod(heading, 360.0);
   if (wrapped < 0.0) wrapped += 360.0;
   // A tiny negative heading rounds up to 360.

@@ -25,8 +25,11 @@ SituationId SituationGrid::situation(double x, double y, double heading) const {
   require_finite("heading", heading);
   const int column = std::min(static_cast<int>(x / cell_width_), columns_ - 1);
   const int row = std::min(static_cast<int>(y / cell_height_), rows_ - 1);
-  const int bin = static_cast<int>(wrapped_heading(heading) / heading_step_ + 0.5) % headings_;
-  return (static_cast<SituationId>(row) * columns_ + column) * headings_ + bin;
+  // The nearest bin; adding a half before rounding down would itself round, up across a border.
+  const double wrapped = wrapped_heading(heading);
+  int bin = static_cast<int>(wrapped / heading_step_);
+  if (wrapped - bin * heading_step_ >= 0.5 * heading_step_) ++bin;
+  return (static_cast<SituationId>(row) * columns_ + column) * headings_ + bin % headings_;
 }
 
 Pose SituationGrid::centre(SituationId situation) const {
