@@ -1,0 +1,181 @@
+#pragma once
+
+// The one include point of the bindings: pybind11, the casters of ours, and what each file defines.
+
+#include <pybind11/native_enum.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "devlearn/error.hpp"
+#include "devlearn/situation.hpp"
+#include "devlearn/world.hpp"
+
+namespace py = pybind11;
+
+namespace devlearn::python {
+
+void bind_error(py::module_& m);
+void bind_random(py::module_& m);
+void bind_situation(py::module_& m);
+void bind_evaluation(py::module_& m);
+void bind_learner(py::module_& m);
+void bind_world(py::module_& m);
+void bind_robot(py::module_& m);
+void bind_record(py::module_& m);
+void bind_trial(py::module_& m);
+
+/// A whole number from Python that devlearn refuses itself where it does not fit the C++ type.
+template <typename Tag>
+struct Whole {
+  typename Tag::type value = 0;
+};
+struct SituationTag {
+  using type = SituationId;
+  static constexpr const char* quantity = "situation";
+  static constexpr const char* allowed = "a whole number in [0, 2^63 - 1]";
+};
+struct SeedTag {
+  using type = std::uint64_t;
+  static constexpr const char* quantity = "seed";
+  static constexpr const char* allowed = "a whole number in [0, 2^64 - 1]";
+};
+struct MotionTag {
+  using type = int;
+  static constexpr const char* quantity = "motion";
+  static constexpr const char* allowed = "a whole number in [0, motion_count - 1]";
+};
+struct CountTag {
+  using type = std::int64_t;
+  static constexpr const char* quantity = "count";
+  static constexpr const char* allowed = "a whole number in [0, 2^40]";
+};
+
+/// devlearn.Record, built on the Python side.
+class RecordObject : public py::object {
+ public:
+  using py::object::object;
+  explicit RecordObject(py::object record) : py::object(std::move(record)) {}
+};
+
+/// A numpy array that takes over the vector's memory.
+template <typename Scalar, typename T>
+py::array moved_array(std::vector<T>&& values, std::vector<py::ssize_t> shape = {}) {
+  static_assert(sizeof(Scalar) == sizeof(T));
+  auto* owned = new std::vector<T>(std::move(values));
+  const py::capsule owner(owned, [](void* data) { delete static_cast<std::vector<T>*>(data); });
+  if (shape.empty()) shape = {static_cast<py::ssize_t>(owned->size())};
+  return py::array(py::dtype::of<Scalar>(), std::move(shape), owned->data(), owner);
+}
+
+/// What every configuration class offers beyond its fields: to_dict, from_dict, replace, equality,
+/// repr and pickling. `nested` maps a field to the class that its dict stands for.
+template <typename T>
+void def_fields(py::class_<T>& cls, std::vector<std::string> names, py::dict nested = {}) {
+  const std::string owner = py::str(cls.attr("__name__"));
+  cls.def(
+      "to_dict",
+      [names](const py::object& self) {
+        py::dict fields;
+        for (const std::string& name : names) {
+          py::object value = self.attr(name.c_str());
+          if (py::hasattr(value, "to_dict")) value = value.attr("to_dict")();
+          fields[name.c_str()] = value;
+        }
+        return fields;
+      },
+      "Its fields as a dict of plain values, as JSON can hold.");
+  const auto from_dict = [names, nested, owner, type = py::handle(cls)](const py::dict& fields) {
+    py::dict arguments;
+    for (const auto& [key, value] : fields) {
+      const std::string name = py::str(key);
+      if (std::find(names.begin(), names.end(), name) == names.end()) {
+        std::string known;
+        for (const std::string& field : names) known += (known.empty() ? "" : ", ") + field;
+        throw InvalidValue(owner + "." + name, "an unknown field", "one of " + known);
+      }
+      arguments[key] = nested.contains(key) && py::isinstance<py::dict>(value)
+                           ? py::object(nested[key].attr("from_dict")(value))
+                           : py::reinterpret_borrow<py::object>(value);
+    }
+    return type(**arguments).template cast<T>();
+  };
+  cls.def_static("from_dict", from_dict, py::arg("fields"),
+                 "From a dict of fields; those left out keep their defaults. Raises InvalidValue "
+                 "for an unknown field.");
+  cls.def(
+      "replace",
+      [from_dict](const py::object& self, const py::kwargs& changes) {
+        py::dict fields = self.attr("to_dict")();
+        for (const auto& [key, value] : changes) fields[key] = value;
+        return from_dict(fields);
+      },
+      "A copy with some fields changed.");
+  cls.def(
+      "__eq__", [](const T& a, const T& b) { return a == b; }, py::is_operator());
+  cls.def("__hash__", [](const py::object& self) { return py::hash(py::repr(self)); });
+  cls.def("__repr__", [names, owner](const py::object& self) {
+    std::string text;
+    for (const std::string& name : names) {
+      text +=
+          (text.empty() ? "" : ", ") + name + "=" + std::string(py::repr(self.attr(name.c_str())));
+    }
+    return owner + "(" + text + ")";
+  });
+  cls.def("__reduce__", [](const py::object& self) {
+    return py::make_tuple(py::type::of(self).attr("from_dict"),
+                          py::make_tuple(self.attr("to_dict")()));
+  });
+}
+
+}  // namespace devlearn::python
+
+namespace PYBIND11_NAMESPACE {
+namespace detail {
+
+/// A pose from any three numbers; back as devlearn.Pose.
+template <>
+struct type_caster<devlearn::Pose> {
+  PYBIND11_TYPE_CASTER(devlearn::Pose,
+                       io_name("collections.abc.Sequence[float]", "devlearn._types.Pose"));
+  bool load(handle source, bool convert);
+  static handle cast(const devlearn::Pose& pose, return_value_policy, handle);
+};
+
+/// A point from any two numbers; back as a tuple.
+template <>
+struct type_caster<devlearn::Point> {
+  PYBIND11_TYPE_CASTER(devlearn::Point,
+                       io_name("collections.abc.Sequence[float]", "tuple[float, float]"));
+  bool load(handle source, bool convert);
+  static handle cast(const devlearn::Point& point, return_value_policy, handle);
+};
+
+template <typename Tag>
+struct type_caster<devlearn::python::Whole<Tag>> {
+  PYBIND11_TYPE_CASTER(devlearn::python::Whole<Tag>, const_name("typing.SupportsIndex"));
+  bool load(handle source, bool convert) {
+    make_caster<typename Tag::type> caster;
+    if (caster.load(source, convert)) {
+      value.value = cast_op<typename Tag::type>(caster);
+      return true;
+    }
+    PyErr_Clear();
+    if (!PyIndex_Check(source.ptr())) return false;
+    throw devlearn::InvalidValue(Tag::quantity, str(source), Tag::allowed);
+  }
+};
+
+template <>
+struct handle_type_name<devlearn::python::RecordObject> {
+  static constexpr auto name = const_name("devlearn.record.Record");
+};
+
+}  // namespace detail
+}  // namespace PYBIND11_NAMESPACE

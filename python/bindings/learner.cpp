@@ -1,0 +1,219 @@
+#include "devlearn/learner.hpp"
+
+#include <optional>
+
+#include "bindings.hpp"
+
+namespace devlearn::python {
+namespace {
+
+OnNegative on_negative(const std::string& text) {
+  if (text == "abandon") return OnNegative::kAbandon;
+  if (text == "weaken") return OnNegative::kWeaken;
+  throw InvalidValue("LearnerConfig.on_negative", "'" + text + "'", "'abandon' or 'weaken'");
+}
+
+WhenExhausted when_exhausted(const std::string& text) {
+  if (text == "retry") return WhenExhausted::kRetry;
+  if (text == "wander") return WhenExhausted::kWander;
+  throw InvalidValue("LearnerConfig.when_exhausted", "'" + text + "'", "'retry' or 'wander'");
+}
+
+void bind_config(py::module_& m) {
+  py::class_<LearnerConfig> cls(
+      m, "LearnerConfig",
+      "The learner's parameters; the defaults are the paper's.\n\n"
+      "Parameters: motion_count N_M in 1 ... 65535; eta (Eq. 9) and sigma (Eq. 7) in (0, 1); c1 "
+      "in\n"
+      "[0, 1e6] and c2 in [-1e6, 1e6] (Eq. 5); on_negative, what becomes of an exploited motion\n"
+      "that met SMF < 0: 'abandon' (step 4: it moves to the ineffective list) or 'weaken' (step "
+      "5:\n"
+      "Eq. 9 lowers its orientation); when_exhausted, where every motion was tried and none is\n"
+      "effective: 'retry' (any motion; one that proves effective re-enters) or 'wander' (any "
+      "motion;\n"
+      "nothing is learned). Raises InvalidValue.");
+  cls.def(py::init([](int motion_count, double eta, double sigma, double c1, double c2,
+                      const std::string& negative, const std::string& exhausted) {
+            const LearnerConfig config{
+                motion_count, eta, sigma, c1, c2, on_negative(negative), when_exhausted(exhausted)};
+            config.validate();
+            return config;
+          }),
+          py::arg("motion_count") = 5, py::arg("eta") = 0.05, py::arg("sigma") = 0.3,
+          py::arg("c1") = 0.5, py::arg("c2") = 1.0, py::arg("on_negative") = "abandon",
+          py::arg("when_exhausted") = "retry");
+  cls.def_static("paper", &LearnerConfig::paper,
+                 "The default: abandon and retry, the reading under which the paper's results come "
+                 "out.");
+  cls.def_static("step5", &LearnerConfig::step5,
+                 "The other reading, for comparison: weaken and wander.");
+  cls.def_readonly("motion_count", &LearnerConfig::motion_count, "N_M, the number of motions.");
+  cls.def_readonly("eta", &LearnerConfig::eta, "Orientation parameter of Eq. 9.");
+  cls.def_readonly("sigma", &LearnerConfig::sigma,
+                   "Weight of orientation against curiosity, Eq. 7.");
+  cls.def_readonly("c1", &LearnerConfig::c1, "How fast curiosity wanes, Eq. 5.");
+  cls.def_readonly("c2", &LearnerConfig::c2, "Times learned at which curiosity is 1/2, Eq. 5.");
+  cls.def_property_readonly(
+      "on_negative",
+      [](const LearnerConfig& self) {
+        return self.on_negative == OnNegative::kAbandon ? "abandon" : "weaken";
+      },
+      "'abandon' or 'weaken'.");
+  cls.def_property_readonly(
+      "when_exhausted",
+      [](const LearnerConfig& self) {
+        return self.when_exhausted == WhenExhausted::kRetry ? "retry" : "wander";
+      },
+      "'retry' or 'wander'.");
+  def_fields(cls, {"motion_count", "eta", "sigma", "c1", "c2", "on_negative", "when_exhausted"});
+}
+
+void bind_results(py::module_& m) {
+  py::native_enum<Kind>(m, "Kind", "enum.IntEnum", "Why a motion was chosen.")
+      .value("EXPLORE", Kind::kExplore, "drawn from the motions not yet tried here")
+      .value("EXPLOIT", Kind::kExploit, "winner of orientation and curiosity")
+      .value("EXHAUSTED", Kind::kExhausted, "all were tried and none is effective: any motion")
+      .value("UNSTATED", Kind::kUnstated, "chosen by an agent that gives no reason")
+      .finalize();
+  py::native_enum<Event>(m, "Event", "enum.IntEnum", "What one outcome changed.")
+      .value("NOTHING", Event::kNothing, "an ineffective motion stayed so")
+      .value("EXTENSION", Event::kExtension, "the motion entered the effective list, Eq. 10-13")
+      .value("REJECTION", Event::kRejection, "an explored motion proved ineffective")
+      .value("ORIENTATION", Event::kOrientation, "the orientations changed by Eq. 9")
+      .value("ABANDONMENT", Event::kAbandonment, "an exploited motion met SMF < 0 and left")
+      .finalize();
+
+  py::class_<Choice>(m, "Choice", "A motion to execute: its index in M, and why.")
+      .def(py::init([](int motion, Kind kind) {
+             return Choice{motion, kind};
+           }),
+           py::arg("motion"), py::arg("kind") = Kind::kUnstated)
+      .def_readonly("motion", &Choice::motion, "Index in M.")
+      .def_readonly("kind", &Choice::kind, "Why it was chosen.")
+      .def(
+          "__eq__",
+          [](const Choice& a, const Choice& b) { return a.motion == b.motion && a.kind == b.kind; },
+          py::is_operator())
+      .def("__repr__", [](const py::object& self) {
+        return py::str("Choice(motion={}, kind={!r})")
+            .format(self.attr("motion"), self.attr("kind"));
+      });
+
+  py::class_<Development>(m, "Development", "What one outcome changed in the learner.")
+      .def_readonly("situation", &Development::situation, "The situation learned in.")
+      .def_readonly("motion", &Development::motion, "The motion learned about.")
+      .def_readonly("event", &Development::event, "What happened to it.")
+      .def_readonly("reduced", &Development::reduced,
+                    "How many motions reduction development (Eq. 14-17) removed.")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("Development(situation={}, motion={}, event={!r}, reduced={})")
+            .format(self.attr("situation"), self.attr("motion"), self.attr("event"),
+                    self.attr("reduced"));
+      });
+
+  py::class_<SituationMemory>(m, "SituationMemory",
+                              "What one situation holds, as a copy: three disjoint lists of motion "
+                              "indices, together always M (Eq. 3-4).")
+      .def_readonly("effective", &SituationMemory::effective,
+                    "M_i: motions found effective, in the order they entered.")
+      .def_readonly("ineffective", &SituationMemory::ineffective,
+                    "Motions found ineffective, or no longer good enough.")
+      .def_readonly("unexplored", &SituationMemory::unexplored, "RM_i: motions not tried yet.")
+      .def_readonly("orientation", &SituationMemory::orientation,
+                    "Orientation of each effective motion; they sum to 1.")
+      .def_readonly("times_learned", &SituationMemory::times_learned,
+                    "n_ij of each effective motion.")
+      .def("__repr__", [](const py::object& self) {
+        return py::str(
+                   "SituationMemory(effective={}, ineffective={}, unexplored={}, "
+                   "orientation={}, times_learned={})")
+            .format(self.attr("effective"), self.attr("ineffective"), self.attr("unexplored"),
+                    self.attr("orientation"), self.attr("times_learned"));
+      });
+}
+
+}  // namespace
+
+void bind_learner(py::module_& m) {
+  bind_config(m);
+  bind_results(m);
+
+  const auto copy = [](const Learner& self) { return Learner(self); };
+  py::class_<Learner, std::shared_ptr<Learner>>(
+      m, "Learner",
+      "The sensorimotor developmental learner: a situation in, a motion out; how good it was in,\n"
+      "the lists develop. It knows no robot, grid or task.\n\n"
+      "    learner = Learner(LearnerConfig(motion_count=4), seed=1)\n"
+      "    choice = learner.choose(situation)      # any whole number in 0 ... 2**63 - 1\n"
+      "    ...execute choice.motion...\n"
+      "    learner.learn(smf)                      # SMF = SEF after - SEF before, Eq. 8\n\n"
+      "The same configuration, seed and outcomes give the same history everywhere. copy.copy and\n"
+      "copy.deepcopy give independent learners that go on alike.")
+      .def(py::init([](const std::optional<LearnerConfig>& config, Whole<SeedTag> seed) {
+             return std::make_shared<Learner>(config.value_or(LearnerConfig{}), seed.value);
+           }),
+           py::arg("config") = py::none(), py::arg("seed") = 0)
+      .def(
+          "choose",
+          [](Learner& self, Whole<SituationTag> situation) { return self.choose(situation.value); },
+          py::arg("situation"),
+          "Step 3: chooses a motion. Raises InvalidValue for a negative situation, or while an "
+          "earlier choice waits for learn() or cancel().")
+      .def(
+          "learn",
+          [](Learner& self, double smf, std::optional<Whole<MotionTag>> motion) {
+            return motion ? self.learn(smf, motion->value) : self.learn(smf);
+          },
+          py::arg("smf"), py::arg("motion") = py::none(),
+          "Steps 4-5: learns from the chosen motion's SMF (finite; >= 0 means effective), or from "
+          "that of the `motion` that really ran. Raises InvalidValue where no choice waits.")
+      .def(
+          "cancel", &Learner::cancel,
+          "The waiting choice was not executed; nothing is learned. Raises InvalidValue where none "
+          "waits.")
+      .def(
+          "update",
+          [](Learner& self, Whole<SituationTag> situation, Whole<MotionTag> motion, double smf) {
+            return self.update(situation.value, motion.value, smf);
+          },
+          py::arg("situation"), py::arg("motion"), py::arg("smf"),
+          "Learns about any situation and motion, whoever chose: delayed outcomes, several robots, "
+          "replay. A waiting choice goes on waiting. Raises InvalidValue.")
+      .def(
+          "situation",
+          [](const Learner& self, Whole<SituationTag> situation) {
+            return self.situation(situation.value);
+          },
+          py::arg("situation"),
+          "A situation's lists, as a copy; of one never experienced every motion is unexplored. "
+          "Creates nothing.")
+      .def(
+          "situations",
+          [](const Learner& self) { return moved_array<SituationId>(self.situations()); },
+          "Ids of the situations experienced, in that order: an int64 array.")
+      .def("reserve", &Learner::reserve, py::arg("situations"),
+           "Makes room for so many situations in all.")
+      .def("copy", copy, "An independent learner that goes on alike.")
+      .def("__copy__", copy)
+      .def(
+          "__deepcopy__", [](const Learner& self, const py::dict&) { return Learner(self); },
+          py::arg("memo"))
+      .def_property_readonly("explored_count", &Learner::explored_count,
+                             "NUM_RM: mappings explored so far.")
+      .def_property_readonly("effective_count", &Learner::effective_count,
+                             "NUM_M: mappings now effective.")
+      .def_property_readonly("situations_experienced", &Learner::situations_experienced,
+                             "How many situations were experienced.")
+      .def_property_readonly("config", &Learner::config, py::return_value_policy::copy,
+                             "Its parameters.")
+      .def_property_readonly("seed", &Learner::seed, "The seed it began with.")
+      .def_property_readonly("pending", &Learner::pending,
+                             "The choice that waits for its outcome, or None.")
+      .def("__repr__", [](const Learner& self) {
+        return "<devlearn.Learner: " + std::to_string(self.situations_experienced()) +
+               " situations, " + std::to_string(self.explored_count()) + " mappings explored, " +
+               std::to_string(self.effective_count()) + " effective>";
+      });
+}
+
+}  // namespace devlearn::python

@@ -1,0 +1,28 @@
+#include "devlearn/random.hpp"
+
+#include "bindings.hpp"
+
+namespace devlearn::python {
+
+void bind_random(py::module_& m) {
+  py::class_<Random>(m, "Random",
+                     "A seedable generator (xoshiro256++) with named streams; the same draws on "
+                     "every machine.\n\nThe paper's learner draws from the stream \"agent\" of its "
+                     "seed.")
+      .def(py::init([](Whole<SeedTag> seed, const std::string& stream) {
+             return Random(seed.value, stream);
+           }),
+           py::arg("seed"), py::arg("stream"))
+      .def("next", &Random::next, "64 random bits as an int.")
+      .def("uniform", &Random::uniform, "A float uniform on [0, 1).")
+      .def(
+          "index",
+          [](Random& self, long long count) {
+            require_count("count", count, 1, 0xffffffffLL);
+            return self.index(static_cast<std::uint32_t>(count));
+          },
+          py::arg("count"),
+          "An int uniform on {0, ..., count - 1}. Raises InvalidValue unless 1 <= count < 2**32.");
+}
+
+}  // namespace devlearn::python

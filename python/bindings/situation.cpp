@@ -1,0 +1,91 @@
+#include "devlearn/situation.hpp"
+
+#include "bindings.hpp"
+
+namespace PYBIND11_NAMESPACE {
+namespace detail {
+namespace {
+
+// The numbers of a sequence of exactly `count`; false where it is none.
+bool load_numbers(handle source, double* numbers, std::size_t count) {
+  if (!PySequence_Check(source.ptr()) || PyUnicode_Check(source.ptr())) return false;
+  const auto values = reinterpret_borrow<sequence>(source);
+  if (values.size() != count) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    make_caster<double> number;
+    if (!number.load(object(values[i]), true)) return false;
+    numbers[i] = cast_op<double>(number);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool type_caster<devlearn::Pose>::load(handle source, bool) {
+  double numbers[3];
+  if (!load_numbers(source, numbers, 3)) return false;
+  value = {numbers[0], numbers[1], numbers[2]};
+  return true;
+}
+
+handle type_caster<devlearn::Pose>::cast(const devlearn::Pose& pose, return_value_policy, handle) {
+  return module_::import("devlearn._types").attr("Pose")(pose.x, pose.y, pose.heading).release();
+}
+
+bool type_caster<devlearn::Point>::load(handle source, bool) {
+  double numbers[2];
+  if (!load_numbers(source, numbers, 2)) return false;
+  value = {numbers[0], numbers[1]};
+  return true;
+}
+
+handle type_caster<devlearn::Point>::cast(const devlearn::Point& point, return_value_policy,
+                                          handle) {
+  return make_tuple(point.x, point.y).release();
+}
+
+}  // namespace detail
+}  // namespace PYBIND11_NAMESPACE
+
+namespace devlearn::python {
+
+void bind_situation(py::module_& m) {
+  py::class_<SituationGrid>(
+      m, "SituationGrid",
+      "Step 1: which sensory situation a pose is, on an even grid of cells and headings.\n\n"
+      "Cells are half-open; the arena's far borders belong to the last cells. Heading bin k is\n"
+      "centred on k * 360 / headings degrees. id = (row * columns + column) * headings + bin.\n\n"
+      "Parameters: width, height in (0, 10000] m; columns, rows in 1 ... 100000; headings in\n"
+      "1 ... 3600. Raises InvalidValue.")
+      .def(py::init<double, double, int, int, int>(), py::arg("width") = 5.0,
+           py::arg("height") = 5.0, py::arg("columns") = 20, py::arg("rows") = 20,
+           py::arg("headings") = 12)
+      .def(
+          "situation", &SituationGrid::situation, py::arg("x"), py::arg("y"), py::arg("heading"),
+          "The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers "
+          "give an int; arrays broadcast and give an int64 array. Raises InvalidValue.")
+      .def("situation", py::vectorize(&SituationGrid::situation), py::arg("x"), py::arg("y"),
+           py::arg("heading"))
+      .def(
+          "centre",
+          [](const SituationGrid& self, Whole<SituationTag> situation) {
+            return self.centre(situation.value);
+          },
+          py::arg("situation"),
+          "The pose in the middle of a situation's cell and heading bin. Raises InvalidValue.")
+      .def_property_readonly("count", &SituationGrid::count, "N_S, the number of situations.")
+      .def_property_readonly("width", &SituationGrid::width, "[m]")
+      .def_property_readonly("height", &SituationGrid::height, "[m]")
+      .def_property_readonly("columns", &SituationGrid::columns, "Cells along x.")
+      .def_property_readonly("rows", &SituationGrid::rows, "Cells along y.")
+      .def_property_readonly("headings", &SituationGrid::headings, "Heading bins.")
+      .def("__repr__", [](const SituationGrid& self) {
+        return "SituationGrid(width=" + to_text(self.width()) +
+               ", height=" + to_text(self.height()) +
+               ", columns=" + std::to_string(self.columns()) +
+               ", rows=" + std::to_string(self.rows()) +
+               ", headings=" + std::to_string(self.headings()) + ")";
+      });
+}
+
+}  // namespace devlearn::python

@@ -1,0 +1,260 @@
+#include "devlearn/trial.hpp"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "bindings.hpp"
+#include "record_columns.hpp"
+
+namespace devlearn::python {
+namespace {
+
+ClearanceSource clearance_source(const std::string& text) {
+  if (text == "geometric") return ClearanceSource::kGeometric;
+  if (text == "sonar") return ClearanceSource::kSonar;
+  throw InvalidValue("TrialConfig.clearance_source", "'" + text + "'", "'geometric' or 'sonar'");
+}
+
+/// An agent written in Python.
+class PythonAgent final : public Agent {
+ public:
+  explicit PythonAgent(py::object agent) : agent_(std::move(agent)) {
+    for (const char* method : {"choose", "observe"}) {
+      if (!py::hasattr(agent_, method)) {
+        throw InvalidValue("agent", py::repr(agent_),
+                           "None, a Learner, or an object with choose(observation) and "
+                           "observe(outcome)");
+      }
+    }
+  }
+
+  Choice choose(const Observation& observation) override {
+    const py::gil_scoped_acquire gil;
+    const py::object chosen = agent_.attr("choose")(observation);
+    if (py::isinstance<Choice>(chosen)) return chosen.cast<Choice>();
+    if (!PyIndex_Check(chosen.ptr())) {
+      throw InvalidValue("agent's choice", py::repr(chosen), "a motion index or a Choice");
+    }
+    return {chosen.cast<Whole<MotionTag>>().value, Kind::kUnstated};
+  }
+
+  Development observe(const Outcome& outcome) override {
+    const py::gil_scoped_acquire gil;
+    const py::object result = agent_.attr("observe")(outcome);
+    return py::isinstance<Development>(result) ? result.cast<Development>() : Development{};
+  }
+
+  const py::object& object() const { return agent_; }
+
+ private:
+  py::object agent_;
+};
+
+std::shared_ptr<Agent> as_agent(const py::object& agent) {
+  if (py::isinstance<Learner>(agent)) {
+    return std::make_shared<LearnerAgent>(agent.cast<std::shared_ptr<Learner>>());
+  }
+  return std::make_shared<PythonAgent>(agent);
+}
+
+py::object agent_of(const Trial& trial) {
+  if (const auto* python = dynamic_cast<const PythonAgent*>(trial.agent().get())) {
+    return python->object();
+  }
+  return py::cast(trial.learner());
+}
+
+RecordObject as_record(const Trial& trial, Record&& record) {
+  return RecordObject(py::module_::import("devlearn.record")
+                          .attr("Record")
+                          .attr("_of_trial")(columns(std::move(record)), trial.world(),
+                                             trial.config(), trial.seed(), agent_of(trial)));
+}
+
+/// Runs `phase(record, options)` without the GIL. Ctrl-C is looked for every 20 ms; then, and where
+/// an agent raises, what is finished stays in `trial.interrupted`.
+template <typename Phase>
+RecordObject run_phase(py::object& self, bool echoes, const Phase& phase) {
+  auto& trial = self.cast<Trial&>();
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
+  Clock::time_point looked = Clock::now();
+  bool stopped = false;
+  const RunOptions options{echoes, [&] {
+                             if (Clock::now() - looked < kBetweenLooks) return false;
+                             const py::gil_scoped_acquire gil;
+                             stopped = PyErr_CheckSignals() != 0;
+                             looked = Clock::now();
+                             return stopped;
+                           }};
+  Record record;
+  try {
+    const py::gil_scoped_release no_gil;
+    phase(trial, record, options);
+  } catch (...) {
+    self.attr("interrupted") = as_record(trial, std::move(record));
+    throw;
+  }
+  if (stopped) {
+    const py::error_already_set interrupt;
+    self.attr("interrupted") = as_record(trial, std::move(record));
+    throw interrupt;
+  }
+  return as_record(trial, std::move(record));
+}
+
+void bind_config(py::module_& m) {
+  py::class_<TrialConfig> cls(
+      m, "TrialConfig",
+      "Everything a trial needs besides the world and the seed; the defaults are the paper's.\n\n"
+      "Parameters: learner, evaluation, robot; clearance_source, where d_o of Eq. 6 comes from:\n"
+      "'geometric' (exact) or 'sonar' (least echo plus the robot's radius; needs walls_count);\n"
+      "walls_count, whether walls count in d_o; goal_radius in (0, 100] m; cell_size in\n"
+      "[0.001, 1000] m and heading_bins in 1 ... 3600 of the situation grid. Raises InvalidValue.");
+  cls.def(py::init([](const std::optional<LearnerConfig>& learner,
+                      const std::optional<StateEvaluation>& evaluation,
+                      const std::optional<RobotDef>& robot, const std::string& source,
+                      bool walls_count, double goal_radius, double cell_size, int heading_bins) {
+            TrialConfig config;
+            config.robot = robot.value_or(RobotDef{});
+            config.learner = learner.value_or(LearnerConfig{});
+            config.evaluation = evaluation.value_or(StateEvaluation{});
+            config.clearance_source = clearance_source(source);
+            config.walls_count = walls_count;
+            config.goal_radius = goal_radius;
+            config.cell_size = cell_size;
+            config.heading_bins = heading_bins;
+            config.validate();
+            return config;
+          }),
+          py::arg("learner") = py::none(), py::arg("evaluation") = py::none(),
+          py::arg("robot") = py::none(), py::arg("clearance_source") = "geometric",
+          py::arg("walls_count") = false, py::arg("goal_radius") = 0.1, py::arg("cell_size") = 0.25,
+          py::arg("heading_bins") = 12);
+  cls.def_static("paper", &TrialConfig::paper, "The default, with LearnerConfig.paper().");
+  cls.def_static("step5", &TrialConfig::step5, "The other reading, with LearnerConfig.step5().");
+  cls.def_readonly("learner", &TrialConfig::learner, "LearnerConfig");
+  cls.def_readonly("evaluation", &TrialConfig::evaluation, "StateEvaluation");
+  cls.def_readonly("robot", &TrialConfig::robot, "RobotDef");
+  cls.def_property_readonly(
+      "clearance_source",
+      [](const TrialConfig& self) {
+        return self.clearance_source == ClearanceSource::kGeometric ? "geometric" : "sonar";
+      },
+      "'geometric' or 'sonar'.");
+  cls.def_readonly("walls_count", &TrialConfig::walls_count, "Whether walls count in d_o.");
+  cls.def_readonly("goal_radius", &TrialConfig::goal_radius, "Arrived when d_g <= this [m].");
+  cls.def_readonly("cell_size", &TrialConfig::cell_size, "Of the situation grid [m].");
+  cls.def_readonly("heading_bins", &TrialConfig::heading_bins, "Of the situation grid.");
+  py::dict nested;
+  nested["learner"] = m.attr("LearnerConfig");
+  nested["evaluation"] = m.attr("StateEvaluation");
+  nested["robot"] = m.attr("RobotDef");
+  def_fields(cls,
+             {"learner", "evaluation", "robot", "clearance_source", "walls_count", "goal_radius",
+              "cell_size", "heading_bins"},
+             nested);
+}
+
+void bind_messages(py::module_& m) {
+  py::class_<Observation>(m, "Observation", "What an agent knows when it chooses.")
+      .def_readonly("situation", &Observation::situation, "The present situation's id.")
+      .def_readonly("pose", &Observation::pose, "[m, m, degrees]")
+      .def_readonly("sef", &Observation::sef, "SEF here.")
+      .def_readonly("goal_distance", &Observation::goal_distance, "d_g [m]")
+      .def_readonly("clearance", &Observation::clearance, "d_o [m]")
+      .def_readonly("motion_count", &Observation::motion_count,
+                    "Choose one in 0 ... motion_count - 1.");
+  py::class_<Outcome>(m, "Outcome", "What an agent is told about the motion it chose.")
+      .def_readonly("situation", &Outcome::situation, "The next situation's id.")
+      .def_readonly("sef", &Outcome::sef, "SEF there.")
+      .def_readonly("smf", &Outcome::smf, "SMF as learned from: min(SMF, -1) for a collision.")
+      .def_readonly("collided", &Outcome::collided, "Whether the body touched something.")
+      .def_readonly("arrived", &Outcome::arrived, "d_g <= goal_radius.");
+}
+
+}  // namespace
+
+void bind_trial(py::module_& m) {
+  bind_config(m);
+  bind_messages(m);
+
+  py::class_<Trial> cls(
+      m, "Trial", py::dynamic_attr(),
+      "The closed loop: world -> sense -> situation -> choice -> motion -> evaluation ->\n"
+      "development -> record.\n\n"
+      "Parameters: world; config, a TrialConfig (None: the paper's); seed of the learner's draws;\n"
+      "agent: None for a new paper's learner, a Learner (shared, not copied), or any object with\n"
+      "choose(observation) -> motion index or Choice, and observe(outcome). Raises "
+      "InvalidValue.\n\n"
+      "A phase that Ctrl-C or an agent's exception ends leaves what it finished in `interrupted`.");
+  cls.attr("interrupted") = py::none();
+  cls.def(py::init([](const World& world, const std::optional<TrialConfig>& given,
+                      Whole<SeedTag> seed, const py::object& agent) {
+            const TrialConfig config = given.value_or(TrialConfig{});
+            if (agent.is_none()) return std::make_unique<Trial>(world, config, seed.value);
+            return std::make_unique<Trial>(world, config, seed.value, as_agent(agent));
+          }),
+          py::arg("world"), py::arg("config") = py::none(), py::arg("seed") = 0,
+          py::arg("agent") = py::none())
+      .def("step", &Trial::step, "One tick of the loop.")
+      .def(
+          "run",
+          [](py::object& self, Whole<CountTag> steps, bool echoes) {
+            return run_phase(self, echoes,
+                             [&](Trial& trial, Record& record, const RunOptions& run) {
+                               trial.run(record, steps.value, run);
+                             });
+          },
+          py::arg("steps"), py::kw_only(), py::arg("echoes") = false,
+          "`steps` ticks from where the robot is, in the present round. `echoes` records the "
+          "sonars, too.")
+      .def(
+          "free_learning",
+          [](py::object& self, Whole<CountTag> steps, bool echoes) {
+            return run_phase(self, echoes,
+                             [&](Trial& trial, Record& record, const RunOptions& run) {
+                               trial.free_learning(record, steps.value, run);
+                             });
+          },
+          py::arg("steps"), py::kw_only(), py::arg("echoes") = false,
+          "A new round of `steps` steps from the start pose; reaching the target ends nothing.")
+      .def(
+          "path_learning",
+          [](py::object& self, Whole<CountTag> rounds, Whole<CountTag> step_limit, bool echoes) {
+            return run_phase(self, echoes,
+                             [&](Trial& trial, Record& record, const RunOptions& run) {
+                               trial.path_learning(record, rounds.value, step_limit.value, run);
+                             });
+          },
+          py::arg("rounds"), py::arg("step_limit") = 10000, py::kw_only(),
+          py::arg("echoes") = false,
+          "`rounds` new rounds from the start pose, each until the target is reached, or failed "
+          "(arrived False) after `step_limit` steps.")
+      .def("begin_round", &Trial::begin_round, "Puts the robot at the start pose for a new round.")
+      .def(
+          "place",
+          [](Trial& self, double x, double y, double heading) {
+            self.place({x, y, heading});
+          },
+          py::arg("x"), py::arg("y"), py::arg("heading"),
+          "Puts the robot anywhere it fits [m, m, degrees] for a new round. Raises InvalidValue.")
+      .def_property_readonly("pose", &Trial::pose, "Where the robot is [m, m, degrees].")
+      .def_property_readonly("round", &Trial::round,
+                             "The present round, from 1; 0 before the first.")
+      .def_property_readonly("arrived", &Trial::arrived, "Whether d_g <= goal_radius.")
+      .def_property_readonly("learner", &Trial::learner,
+                             "The paper's learner, where that is the agent; None otherwise.")
+      .def_property_readonly("agent", &agent_of, "Whoever chooses.")
+      .def_property_readonly("world", &Trial::world, py::return_value_policy::copy, "The World.")
+      .def_property_readonly("robot", &Trial::robot, py::return_value_policy::reference_internal,
+                             "The Robot.")
+      .def_property_readonly("grid", &Trial::grid, py::return_value_policy::copy,
+                             "The SituationGrid over the arena.")
+      .def_property_readonly("config", &Trial::config, py::return_value_policy::copy,
+                             "The TrialConfig.")
+      .def_property_readonly("seed", &Trial::seed, "The seed it began with.");
+}
+
+}  // namespace devlearn::python

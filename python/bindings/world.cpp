@@ -1,0 +1,150 @@
+#include "devlearn/world.hpp"
+
+#include <limits>
+
+#include "bindings.hpp"
+
+namespace devlearn::python {
+namespace {
+
+void bind_obstacles(py::module_& m) {
+  py::class_<Circle>(m, "Circle", "A round obstacle: center (x, y) [m], radius in [0.01, 1000] m.")
+      .def(py::init([](Point center, double radius) {
+             return Circle{center, radius};
+           }),
+           py::arg("center"), py::arg("radius"))
+      .def_readonly("center", &Circle::center, "(x, y) [m]")
+      .def_readonly("radius", &Circle::radius, "[m]")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("Circle({}, {})").format(self.attr("center"), self.attr("radius"));
+      });
+  py::class_<Rectangle>(m, "Rectangle",
+                        "A rectangular obstacle: center (x, y) [m], size (width, height) in "
+                        "[0.01, 1000] m, turned by `angle` degrees counter-clockwise.")
+      .def(py::init([](Point center, Point size, double angle) {
+             return Rectangle{center, size.x, size.y, angle};
+           }),
+           py::arg("center"), py::arg("size"), py::arg("angle") = 0.0)
+      .def_readonly("center", &Rectangle::center, "(x, y) [m]")
+      .def_property_readonly(
+          "size",
+          [](const Rectangle& self) {
+            return Point{self.width, self.height};
+          },
+          "(width, height) [m]")
+      .def_readonly("angle", &Rectangle::angle, "[degrees]")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("Rectangle({}, {}, {})")
+            .format(self.attr("center"), self.attr("size"), self.attr("angle"));
+      });
+  py::class_<Polygon>(m, "Polygon",
+                      "An obstacle of any simple outline, convex or not: at least 3 corners (x, y) "
+                      "[m] in either direction, neighbours at least 0.01 m apart.")
+      .def(py::init([](std::vector<Point> corners) { return Polygon{std::move(corners)}; }),
+           py::arg("corners"))
+      .def_readonly("corners", &Polygon::corners, "(x, y) of each corner [m]")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("Polygon({})").format(self.attr("corners"));
+      });
+}
+
+}  // namespace
+
+void bind_world(py::module_& m) {
+  bind_obstacles(m);
+
+  py::class_<World>(
+      m, "World",
+      "An arena with walls, obstacles, a start and a target; checked once, then unchanging.\n\n"
+      "Parameters: width, height of the arena in [0.5, 1000] m; start (x, y, heading) and target\n"
+      "(x, y) inside it and outside every obstacle, in metres and degrees; obstacles, a list of\n"
+      "Circle, Rectangle and Polygon. Raises InvalidValue.")
+      .def(py::init([](double width, double height, const Pose& start, const Point& target,
+                       std::vector<Obstacle> obstacles, std::string name, std::string description) {
+             return World(WorldDef{std::move(name), std::move(description), width, height, start,
+                                   target, std::move(obstacles)});
+           }),
+           py::arg("width") = 5.0, py::arg("height") = 5.0,
+           py::arg("start") = py::make_tuple(0.5, 0.5, 0.0),
+           py::arg("target") = py::make_tuple(4.5, 4.5), py::arg("obstacles") = py::list(),
+           py::arg("name") = "", py::arg("description") = "")
+      .def_static(
+          "load",
+          [](const py::object& path_or_name) {
+            const py::object path =
+                py::module_::import("devlearn._worlds").attr("path_of")(path_or_name);
+            return World::load(path.cast<std::string>());
+          },
+          py::arg("path_or_name"),
+          "The world in a JSON file, or one that ships by its name (see devlearn.worlds()). Raises "
+          "FileError, naming file and field.")
+      .def_static(
+          "from_json", [](const std::string& text) { return World::parse(text); }, py::arg("text"),
+          "The world in JSON text. Raises FileError.")
+      .def("to_json", &World::to_json, "JSON text that from_json reads back as an equal world.")
+      .def(
+          "save",
+          [](const World& self, const py::object& path) {
+            self.save(py::module_::import("os").attr("fspath")(path).cast<std::string>());
+          },
+          py::arg("path"), "Writes to_json() to a file, atomically. Raises FileError.")
+      .def("with_start", &World::with_start, py::arg("start"),
+           "The same world with another start (x, y, heading). Raises InvalidValue.")
+      .def(
+          "clearance",
+          [](const World& self, double x, double y, bool walls_count) {
+            return self.clearance({x, y}, walls_count);
+          },
+          py::arg("x"), py::arg("y"), py::arg("walls_count") = false,
+          "d_o: least distance from a point to an obstacle's surface [m], 0 inside one, inf where "
+          "there is none; with walls_count the walls count too. Numbers or arrays.")
+      .def(
+          "clearance",
+          [](const World& self, const py::array_t<double>& x, const py::array_t<double>& y,
+             bool walls_count) {
+            return py::vectorize([&self, walls_count](double px, double py_) {
+              return self.clearance({px, py_}, walls_count);
+            })(x, y);
+          },
+          py::arg("x"), py::arg("y"), py::arg("walls_count") = false)
+      .def_property_readonly("name", [](const World& self) { return self.def().name; })
+      .def_property_readonly("description",
+                             [](const World& self) { return self.def().description; })
+      .def_property_readonly(
+          "width", [](const World& self) { return self.def().width; }, "[m]")
+      .def_property_readonly(
+          "height", [](const World& self) { return self.def().height; }, "[m]")
+      .def_property_readonly(
+          "start", [](const World& self) { return self.def().start; }, "Pose [m, m, degrees]")
+      .def_property_readonly(
+          "target", [](const World& self) { return self.def().target; }, "(x, y) [m]")
+      .def_property_readonly(
+          "obstacles", [](const World& self) { return self.def().obstacles; },
+          "Circle, Rectangle and Polygon, as a list.")
+      .def_property_readonly(
+          "hash",
+          [](const World& self) {
+            const py::bytes text(self.to_json());
+            return py::module_::import("hashlib")
+                .attr("sha256")(text)
+                .attr("hexdigest")()
+                .cast<std::string>();
+          },
+          "SHA-256 of to_json(), in hexadecimal.")
+      .def(
+          "__eq__", [](const World& a, const World& b) { return a.to_json() == b.to_json(); },
+          py::is_operator())
+      .def("__hash__", [](const World& self) { return py::hash(py::str(self.to_json())); })
+      .def("__reduce__",
+           [](const py::object& self) {
+             return py::make_tuple(py::type::of(self).attr("from_json"),
+                                   py::make_tuple(self.attr("to_json")()));
+           })
+      .def("__repr__", [](const World& self) {
+        return "<devlearn.World '" + self.def().name + "': " + to_text(self.def().width) + " x " +
+               to_text(self.def().height) + " m, " + std::to_string(self.def().obstacles.size()) +
+               " obstacles>";
+      });
+}
+
+}  // namespace devlearn::python

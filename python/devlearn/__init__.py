@@ -1,0 +1,72 @@
+"""Sensorimotor developmental learning from orientation and curiosity (Zhang et al., 2020).
+
+A mobile robot that learns by itself to find its way. Lengths are in metres, times in seconds,
+headings and angles in degrees, counter-clockwise positive.
+
+    import devlearn
+
+    trial = devlearn.Trial(devlearn.World.load("paper"), seed=1)
+    first = trial.free_learning(10_000)
+    paths = trial.path_learning(rounds=400)
+    print(paths.rounds["steps"])
+"""
+
+from . import errors as errors  # before _core, which raises them
+from ._core import (
+    Choice,
+    Circle,
+    Development,
+    Event,
+    Kind,
+    Learner,
+    LearnerConfig,
+    Observation,
+    Outcome,
+    Polygon,
+    Random,
+    Rectangle,
+    Robot,
+    RobotDef,
+    SituationGrid,
+    SituationMemory,
+    StateEvaluation,
+    Step,
+    Trial,
+    TrialConfig,
+    World,
+    __version__,
+)
+from ._types import Pose
+from ._worlds import worlds
+from .errors import FileError, InvalidValue
+from .record import Record
+
+__all__ = [
+    "Choice",
+    "Circle",
+    "Development",
+    "Event",
+    "FileError",
+    "InvalidValue",
+    "Kind",
+    "Learner",
+    "LearnerConfig",
+    "Observation",
+    "Outcome",
+    "Polygon",
+    "Pose",
+    "Random",
+    "Record",
+    "Rectangle",
+    "Robot",
+    "RobotDef",
+    "SituationGrid",
+    "SituationMemory",
+    "StateEvaluation",
+    "Step",
+    "Trial",
+    "TrialConfig",
+    "World",
+    "__version__",
+    "worlds",
+]

@@ -1,0 +1,23 @@
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from .errors import FileError
+
+_FOLDER = Path(__file__).parent / "worlds"
+
+
+def worlds() -> list[str]:
+    """Names of the worlds that ship, for ``World.load``."""
+    return sorted(path.stem for path in _FOLDER.glob("*.json"))
+
+
+def path_of(path_or_name: str | os.PathLike[str]) -> str:
+    """The file that a path, or the name of a world that ships, stands for."""
+    text = os.fspath(path_or_name)
+    if os.path.exists(text):
+        return text
+    if text in worlds():
+        return str(_FOLDER / f"{text}.json")
+    raise FileError(text, "", "no such file", f"a world file, or one of {', '.join(worlds())}")

@@ -1,0 +1,50 @@
+"""What devlearn refuses, and how it says so."""
+
+from __future__ import annotations
+
+
+class InvalidValue(ValueError):  # noqa: N818 - it names the value, as C++ does
+    """A value or a call that devlearn refuses; the object that refused is left as it was.
+
+    Attributes
+    ----------
+    quantity : str
+        Which quantity, such as ``LearnerConfig.sigma``.
+    value : str
+        What was given.
+    allowed : str
+        What is allowed.
+    """
+
+    def __init__(self, quantity: str, value: object, allowed: str) -> None:
+        super().__init__(quantity, value, allowed)
+        self.quantity = quantity
+        self.value = str(value)
+        self.allowed = allowed
+
+    def __str__(self) -> str:
+        return f"{self.quantity}: got {self.value}; expected {self.allowed}"
+
+
+class FileError(InvalidValue, OSError):
+    """The same for a file: it also says which file and, where there is one, which field.
+
+    Attributes
+    ----------
+    file : str
+        Path of the file, or what stands for it.
+    field : str
+        Path of the field within the file, such as ``obstacles[2].radius``; empty for the whole.
+    """
+
+    def __init__(self, file: str, field: str, value: object, allowed: str) -> None:
+        OSError.__init__(self, file, field, value, allowed)
+        self.quantity = field
+        self.value = str(value)
+        self.allowed = allowed
+        self.file = file
+        self.field = field
+
+    def __str__(self) -> str:
+        where = f"{self.file}: {self.field}" if self.field else self.file
+        return f"{where}: got {self.value}; expected {self.allowed}"

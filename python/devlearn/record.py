@@ -1,0 +1,292 @@
+"""What happened in a trial, as columns."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import tempfile
+import zipfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import IO, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .errors import FileError, InvalidValue
+
+FORMAT = "devlearn-record"
+FORMAT_VERSION = 1
+
+# One value a step.
+STEP_COLUMNS = {
+    "round": np.int32,
+    "situation": np.int64,
+    "motion": np.int32,
+    "kind": np.uint8,
+    "sef": np.float64,
+    "smf": np.float64,
+    "smf_used": np.float64,
+    "collided": np.bool_,
+    "arrived": np.bool_,
+    "goal_distance": np.float64,
+    "clearance": np.float64,
+    "event": np.uint8,
+    "reduced": np.int32,
+    "explored_count": np.int64,
+    "effective_count": np.int64,
+}
+# One value a pose: a round of n steps has n + 1.
+POSE_COLUMNS = {"x": np.float64, "y": np.float64, "heading": np.float64}
+_ROUND_FIELDS = {"round": np.int32, "steps": np.int64, "arrived": np.bool_}
+
+
+class Record:
+    """What happened in a trial: numpy columns of one value a step.
+
+    ========================  =======  ====================================================
+    column                    dtype    meaning
+    ========================  =======  ====================================================
+    ``round``                 int32    the round the step belongs to, from 1
+    ``situation``             int64    before the step: S_i, in which the motion was chosen
+    ``motion``                int32    index in M
+    ``kind``                  uint8    why it was chosen, a ``Kind``
+    ``sef``                   float64  after the step: SEF(t+1)
+    ``smf``                   float64  SEF(t+1) - SEF(t), Eq. 8
+    ``smf_used``              float64  learned from: min(smf, -1) for a collision
+    ``collided``              bool     the body touched something during the step
+    ``arrived``               bool     after the step: d_g <= goal_radius
+    ``goal_distance``         float64  after the step: d_g [m]
+    ``clearance``             float64  after the step: d_o [m]
+    ``event``                 uint8    what the outcome changed, an ``Event``
+    ``reduced``               int32    motions that reduction development removed
+    ``explored_count``        int64    after the step: NUM_RM
+    ``effective_count``       int64    after the step: NUM_M
+    ``x``, ``y``, ``heading`` float64  poses [m, m, degrees]: n + 1 for a round of n steps
+    ``rounds``                struct   one entry a round: round, steps, arrived
+    ``echoes``                float64  after each step: (steps, sonars) [m], or None
+    ========================  =======  ====================================================
+
+    ``provenance`` tells where it came from: version, commit, Box2D's version, world and its hash,
+    configuration, seed and agent.
+    """
+
+    round: npt.NDArray[np.int32]
+    situation: npt.NDArray[np.int64]
+    motion: npt.NDArray[np.int32]
+    kind: npt.NDArray[np.uint8]
+    sef: npt.NDArray[np.float64]
+    smf: npt.NDArray[np.float64]
+    smf_used: npt.NDArray[np.float64]
+    collided: npt.NDArray[np.bool_]
+    arrived: npt.NDArray[np.bool_]
+    goal_distance: npt.NDArray[np.float64]
+    clearance: npt.NDArray[np.float64]
+    event: npt.NDArray[np.uint8]
+    reduced: npt.NDArray[np.int32]
+    explored_count: npt.NDArray[np.int64]
+    effective_count: npt.NDArray[np.int64]
+    x: npt.NDArray[np.float64]
+    y: npt.NDArray[np.float64]
+    heading: npt.NDArray[np.float64]
+    rounds: npt.NDArray[np.void]
+    echoes: npt.NDArray[np.float64] | None
+
+    def __init__(
+        self, columns: Mapping[str, npt.NDArray[Any]], provenance: Mapping[str, Any]
+    ) -> None:
+        """From the columns above and a provenance; raises InvalidValue where they do not fit."""
+        _check(columns)
+        for name in (*STEP_COLUMNS, *POSE_COLUMNS, "rounds"):
+            setattr(self, name, columns[name])
+        self.echoes = columns.get("echoes")
+        self.provenance = dict(provenance)
+
+    @classmethod
+    def _of_trial(
+        cls,
+        columns: Mapping[str, npt.NDArray[Any]],
+        world: _core.World,
+        config: _core.TrialConfig,
+        seed: int,
+        agent: object,
+    ) -> Record:
+        return cls(columns, provenance_of(world, config, seed, agent))
+
+    def __len__(self) -> int:
+        """How many steps."""
+        return len(self.situation)
+
+    def __repr__(self) -> str:
+        arrived = int(np.count_nonzero(self.rounds["arrived"]))
+        world = self.provenance.get("world", {}).get("name", "?")
+        return (
+            f"<devlearn.Record: {len(self)} steps in {len(self.rounds)} rounds, "
+            f"{arrived} arrived, world {world!r}>"
+        )
+
+    @property
+    def world(self) -> _core.World:
+        """The world it happened in."""
+        return _core.World.from_json(self.provenance["world"]["json"])
+
+    @property
+    def config(self) -> _core.TrialConfig:
+        """The configuration it happened under."""
+        return _core.TrialConfig.from_dict(self.provenance["config"])
+
+    def steps_of(self, i: int) -> slice:
+        """Where the steps of entry ``i`` of ``rounds`` stand in the step columns."""
+        i = self._entry(i)
+        start = int(self.rounds["steps"][:i].sum())
+        return slice(start, start + int(self.rounds["steps"][i]))
+
+    def path(self, i: int = 0) -> npt.NDArray[np.float64]:
+        """Poses of entry ``i`` of ``rounds``, its start first: (steps + 1, 3) [m, m, degrees]."""
+        steps = self.steps_of(i)
+        poses = slice(steps.start + self._entry(i), steps.stop + self._entry(i) + 1)
+        return np.column_stack([self.x[poses], self.y[poses], self.heading[poses]])
+
+    def _entry(self, i: int) -> int:
+        count = len(self.rounds)
+        if not -count <= i < count:
+            raise InvalidValue("round entry", i, f"in [{-count}, {count - 1}]")
+        return i % count
+
+    # --- files ----------------------------------------------------------------------------------
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to an npz file (no pickles): to the side first, then renamed."""
+        columns = {name: getattr(self, name) for name in (*STEP_COLUMNS, *POSE_COLUMNS, "rounds")}
+        if self.echoes is not None:
+            columns["echoes"] = self.echoes
+        header = {"format": FORMAT, "version": FORMAT_VERSION, "provenance": self.provenance}
+        with written_aside(path, "wb") as file:
+            np.savez_compressed(file, header=np.array(json.dumps(header)), **columns)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Record:
+        """Read what ``save`` wrote. Raises FileError."""
+        name = os.fspath(path)
+        try:
+            with np.load(name, allow_pickle=False) as file:
+                columns = {key: file[key] for key in file.files}
+            header = json.loads(str(columns.pop("header")))
+            found, version = header["format"], header["version"]
+            provenance = header["provenance"]
+        except FileNotFoundError as error:
+            raise FileError(name, "", "no such file", "a record saved by devlearn") from error
+        except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+            raise FileError(name, "", f"unreadable: {error}", "a record saved by devlearn") from error
+        if found != FORMAT or not isinstance(version, int):
+            raise FileError(name, "format", found, FORMAT)
+        if version > FORMAT_VERSION:
+            raise FileError(
+                name, "version", version, f"at most {FORMAT_VERSION}; a newer devlearn wrote it"
+            )
+        try:
+            return cls(columns, provenance)
+        except InvalidValue as error:
+            raise FileError(name, error.quantity, error.value, error.allowed) from error
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write one row a step: the step columns, the pose after it, and the echoes if recorded.
+
+        Comment lines with ``#`` at the head give the provenance.
+        """
+        after = np.ones(len(self.x), dtype=bool)
+        after[np.cumsum(self.rounds["steps"] + 1) - self.rounds["steps"] - 1] = False
+        columns = {name: getattr(self, name) for name in STEP_COLUMNS}
+        columns |= {name: getattr(self, name)[after] for name in POSE_COLUMNS}
+        if self.echoes is not None:
+            columns |= {f"echo_{i}": column for i, column in enumerate(self.echoes.T)}
+        lists = [
+            (column.astype(np.int8) if column.dtype == np.bool_ else column).tolist()
+            for column in columns.values()
+        ]
+        with written_aside(path, "w") as file:
+            file.write(f"# {json.dumps(self.provenance)}\n")
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(columns)
+            writer.writerows(zip(*lists))
+
+
+def provenance_of(
+    world: _core.World, config: _core.TrialConfig, seed: int, agent: object
+) -> dict[str, Any]:
+    """Where a result comes from, as plain values."""
+    return {
+        "devlearn": _core.__version__,
+        "commit": _core.commit,
+        "box2d": _core.box2d_version,
+        "world": {"name": world.name, "hash": world.hash, "json": world.to_json()},
+        "config": config.to_dict(),
+        "seed": seed,
+        "agent": f"{type(agent).__module__}.{type(agent).__qualname__}",
+    }
+
+
+@contextmanager
+def written_aside(path: str | os.PathLike[str], mode: str) -> Iterator[IO[Any]]:
+    """A file that takes its name only once it is whole and on the disk. Raises FileError."""
+    name = os.fspath(path)
+    folder = os.path.dirname(os.path.abspath(name))
+    aside = ""
+    try:
+        text = {} if "b" in mode else {"encoding": "utf-8", "newline": ""}
+        handle, aside = tempfile.mkstemp(prefix=f".{os.path.basename(name)}.", dir=folder)
+        with os.fdopen(handle, mode, **text) as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(aside, 0o666 & ~_umask())
+        os.replace(aside, name)
+        aside = ""
+    except OSError as error:
+        if isinstance(error, FileError):
+            raise
+        raise FileError(name, "", error.strerror or str(error), "a file that can be written") from error
+    finally:
+        if aside and os.path.exists(aside):
+            os.unlink(aside)
+
+
+def _umask() -> int:
+    current = os.umask(0)
+    os.umask(current)
+    return current
+
+
+def _check(columns: Mapping[str, npt.NDArray[Any]]) -> None:
+    names = (*STEP_COLUMNS, *POSE_COLUMNS, "rounds")
+    for name in names:
+        if name not in columns:
+            raise InvalidValue(name, "no such column", "one of each: " + ", ".join(names))
+    for name in columns:
+        if name not in (*names, "echoes"):
+            raise InvalidValue(name, "an unknown column", ", ".join((*names, "echoes")))
+    rounds = columns["rounds"]
+    for field, dtype in _ROUND_FIELDS.items():
+        if rounds.dtype.fields is None or rounds.dtype.fields.get(field, (None,))[0] != dtype:
+            raise InvalidValue("rounds", rounds.dtype, f"fields {', '.join(_ROUND_FIELDS)}")
+    steps = len(columns["situation"])
+    if rounds.ndim != 1 or (rounds["steps"] < 0).any() or int(rounds["steps"].sum()) != steps:
+        raise InvalidValue("rounds.steps", "another sum", f"{steps}, the number of steps")
+    expected = dict.fromkeys(STEP_COLUMNS, steps) | dict.fromkeys(POSE_COLUMNS, steps + len(rounds))
+    for name, dtype in (STEP_COLUMNS | POSE_COLUMNS).items():
+        column = columns[name]
+        if column.dtype != dtype or column.shape != (expected[name],):
+            raise InvalidValue(
+                name,
+                f"{column.dtype} of shape {column.shape}",
+                f"{np.dtype(dtype)} of shape ({expected[name]},)",
+            )
+    echoes = columns.get("echoes")
+    if echoes is not None and (
+        echoes.dtype != np.float64 or echoes.ndim != 2 or len(echoes) != steps
+    ):
+        raise InvalidValue(
+            "echoes", f"{echoes.dtype} of shape {echoes.shape}", f"float64 of shape ({steps}, sonars)"
+        )
