@@ -1,0 +1,1116 @@
+"""
+The C++ core of devlearn. Use it through the package `devlearn`.
+"""
+
+from __future__ import annotations
+import collections.abc
+import devlearn._types
+import devlearn.record
+import enum
+import numpy
+import numpy.typing
+import typing
+
+__all__: list[str] = [
+    "Choice",
+    "Circle",
+    "Development",
+    "Event",
+    "Kind",
+    "Learner",
+    "LearnerConfig",
+    "Observation",
+    "Outcome",
+    "Polygon",
+    "Random",
+    "Rectangle",
+    "Robot",
+    "RobotDef",
+    "SituationGrid",
+    "SituationMemory",
+    "StateEvaluation",
+    "Step",
+    "Trial",
+    "TrialConfig",
+    "World",
+    "box2d_version",
+    "commit",
+]
+
+class Random:
+    """
+    A seedable generator (xoshiro256++) with named streams; the same draws on every machine.
+
+    The paper's learner draws from the stream "agent" of its seed.
+    """
+    def __init__(self, seed: typing.SupportsIndex, stream: str) -> None: ...
+    def index(self, count: typing.SupportsInt | typing.SupportsIndex) -> int:
+        """
+        An int uniform on {0, ..., count - 1}. Raises InvalidValue unless 1 <= count < 2**32.
+        """
+    def next(self) -> int:
+        """
+        64 random bits as an int.
+        """
+    def uniform(self) -> float:
+        """
+        A float uniform on [0, 1).
+        """
+
+class SituationGrid:
+    """
+    Step 1: which sensory situation a pose is, on an even grid of cells and headings.
+
+    Cells are half-open; the arena's far borders belong to the last cells. Heading bin k is
+    centred on k * 360 / headings degrees. id = (row * columns + column) * headings + bin.
+
+    Parameters: width, height in (0, 10000] m; columns, rows in 1 ... 100000; headings in
+    1 ... 3600. Raises InvalidValue.
+    """
+    def __init__(
+        self,
+        width: typing.SupportsFloat | typing.SupportsIndex = 5.0,
+        height: typing.SupportsFloat | typing.SupportsIndex = 5.0,
+        columns: typing.SupportsInt | typing.SupportsIndex = 20,
+        rows: typing.SupportsInt | typing.SupportsIndex = 20,
+        headings: typing.SupportsInt | typing.SupportsIndex = 12,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def centre(self, situation: typing.SupportsIndex) -> devlearn._types.Pose:
+        """
+        The pose in the middle of a situation's cell and heading bin. Raises InvalidValue.
+        """
+    @typing.overload
+    def situation(
+        self,
+        x: typing.SupportsFloat | typing.SupportsIndex,
+        y: typing.SupportsFloat | typing.SupportsIndex,
+        heading: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> int:
+        """
+        The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers give an int; arrays broadcast and give an int64 array. Raises InvalidValue.
+        """
+    @typing.overload
+    def situation(
+        self,
+        x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        heading: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    ) -> typing.Any: ...
+    @property
+    def columns(self) -> int:
+        """
+        Cells along x.
+        """
+    @property
+    def count(self) -> int:
+        """
+        N_S, the number of situations.
+        """
+    @property
+    def headings(self) -> int:
+        """
+        Heading bins.
+        """
+    @property
+    def height(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def rows(self) -> int:
+        """
+        Cells along y.
+        """
+    @property
+    def width(self) -> float:
+        """
+        [m]
+        """
+
+class StateEvaluation:
+    """
+    Step 2, the state evaluation function (Eq. 6):
+
+        SEF = (a1 - a2 * d_g**2) - a3 * exp(a4 - a5 * d_o)
+
+    Parameters: a1 in [-1e6, 1e6], a2, a3, a5 in [0, 1e6], a4 in [-100, 100]; the defaults are
+    the paper's. Raises InvalidValue.
+    """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> StateEvaluation:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    @typing.overload
+    def __call__(
+        self,
+        goal_distance: typing.SupportsFloat | typing.SupportsIndex,
+        obstacle_distance: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> float:
+        """
+        SEF at a distance d_g in [0, 1e6] m from the target and d_o >= 0 m (inf where there is no obstacle) from the nearest obstacle. Numbers give a float; arrays broadcast. Raises InvalidValue.
+        """
+    @typing.overload
+    def __call__(
+        self,
+        goal_distance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        obstacle_distance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+    ) -> typing.Any: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        a1: typing.SupportsFloat | typing.SupportsIndex = 20.0,
+        a2: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        a3: typing.SupportsFloat | typing.SupportsIndex = 0.2,
+        a4: typing.SupportsFloat | typing.SupportsIndex = 5.0,
+        a5: typing.SupportsFloat | typing.SupportsIndex = 12.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> StateEvaluation:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def a1(self) -> float:
+        """
+        SEF at the target, far from obstacles.
+        """
+    @property
+    def a2(self) -> float:
+        """
+        Pull of the target [1/m^2].
+        """
+    @property
+    def a3(self) -> float:
+        """
+        Push of obstacles.
+        """
+    @property
+    def a4(self) -> float:
+        """
+        Log of the push at an obstacle's surface.
+        """
+    @property
+    def a5(self) -> float:
+        """
+        How fast the push decays [1/m].
+        """
+
+class LearnerConfig:
+    """
+    The learner's parameters; the defaults are the paper's.
+
+    Parameters: motion_count N_M in 1 ... 65535; eta (Eq. 9) and sigma (Eq. 7) in (0, 1); c1 in
+    [0, 1e6] and c2 in [-1e6, 1e6] (Eq. 5); on_negative, what becomes of an exploited motion
+    that met SMF < 0: 'abandon' (step 4: it moves to the ineffective list) or 'weaken' (step 5:
+    Eq. 9 lowers its orientation); when_exhausted, where every motion was tried and none is
+    effective: 'retry' (any motion; one that proves effective re-enters) or 'wander' (any motion;
+    nothing is learned). Raises InvalidValue.
+    """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> LearnerConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    @staticmethod
+    def paper() -> LearnerConfig:
+        """
+        The default: abandon and retry, the reading under which the paper's results come out.
+        """
+    @staticmethod
+    def step5() -> LearnerConfig:
+        """
+        The other reading, for comparison: weaken and wander.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        motion_count: typing.SupportsInt | typing.SupportsIndex = 5,
+        eta: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+        sigma: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        c1: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        c2: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        on_negative: str = "abandon",
+        when_exhausted: str = "retry",
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> LearnerConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def c1(self) -> float:
+        """
+        How fast curiosity wanes, Eq. 5.
+        """
+    @property
+    def c2(self) -> float:
+        """
+        Times learned at which curiosity is 1/2, Eq. 5.
+        """
+    @property
+    def eta(self) -> float:
+        """
+        Orientation parameter of Eq. 9.
+        """
+    @property
+    def motion_count(self) -> int:
+        """
+        N_M, the number of motions.
+        """
+    @property
+    def on_negative(self) -> str:
+        """
+        'abandon' or 'weaken'.
+        """
+    @property
+    def sigma(self) -> float:
+        """
+        Weight of orientation against curiosity, Eq. 7.
+        """
+    @property
+    def when_exhausted(self) -> str:
+        """
+        'retry' or 'wander'.
+        """
+
+class Kind(enum.IntEnum):
+    """
+    Why a motion was chosen.
+    """
+
+    EXPLORE = 0
+    EXPLOIT = 1
+    EXHAUSTED = 2
+    UNSTATED = 3
+
+class Event(enum.IntEnum):
+    """
+    What one outcome changed.
+    """
+
+    NOTHING = 0
+    EXTENSION = 1
+    REJECTION = 2
+    ORIENTATION = 3
+    ABANDONMENT = 4
+
+class Choice:
+    """
+    A motion to execute: its index in M, and why.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __init__(
+        self, motion: typing.SupportsInt | typing.SupportsIndex, kind: Kind = Kind.UNSTATED
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def kind(self) -> Kind:
+        """
+        Why it was chosen.
+        """
+    @property
+    def motion(self) -> int:
+        """
+        Index in M.
+        """
+
+class Development:
+    """
+    What one outcome changed in the learner.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def event(self) -> Event:
+        """
+        What happened to it.
+        """
+    @property
+    def motion(self) -> int:
+        """
+        The motion learned about.
+        """
+    @property
+    def reduced(self) -> int:
+        """
+        How many motions reduction development (Eq. 14-17) removed.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        The situation learned in.
+        """
+
+class SituationMemory:
+    """
+    What one situation holds, as a copy: three disjoint lists of motion indices, together always M (Eq. 3-4).
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def effective(self) -> list[int]:
+        """
+        M_i: motions found effective, in the order they entered.
+        """
+    @property
+    def ineffective(self) -> list[int]:
+        """
+        Motions found ineffective, or no longer good enough.
+        """
+    @property
+    def orientation(self) -> list[float]:
+        """
+        Orientation of each effective motion; they sum to 1.
+        """
+    @property
+    def times_learned(self) -> list[int]:
+        """
+        n_ij of each effective motion.
+        """
+    @property
+    def unexplored(self) -> list[int]:
+        """
+        RM_i: motions not tried yet.
+        """
+
+class Learner:
+    """
+    The sensorimotor developmental learner: a situation in, a motion out; how good it was in,
+    the lists develop. It knows no robot, grid or task.
+
+        learner = Learner(LearnerConfig(motion_count=4), seed=1)
+        choice = learner.choose(situation)      # any whole number in 0 ... 2**63 - 1
+        ...execute choice.motion...
+        learner.learn(smf)                      # SMF = SEF after - SEF before, Eq. 8
+
+    The same configuration, seed and outcomes give the same history everywhere. copy.copy and
+    copy.deepcopy give independent learners that go on alike.
+    """
+    def __copy__(self) -> Learner: ...
+    def __deepcopy__(self, memo: dict[str, typing.Any]) -> Learner: ...
+    def __init__(
+        self, config: LearnerConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def cancel(self) -> None:
+        """
+        The waiting choice was not executed; nothing is learned. Raises InvalidValue where none waits.
+        """
+    def choose(self, situation: typing.SupportsIndex) -> Choice:
+        """
+        Step 3: chooses a motion. Raises InvalidValue for a negative situation, or while an earlier choice waits for learn() or cancel().
+        """
+    def copy(self) -> Learner:
+        """
+        An independent learner that goes on alike.
+        """
+    def learn(
+        self,
+        smf: typing.SupportsFloat | typing.SupportsIndex,
+        motion: typing.SupportsIndex | None = None,
+    ) -> Development:
+        """
+        Steps 4-5: learns from the chosen motion's SMF (finite; >= 0 means effective), or from that of the `motion` that really ran. Raises InvalidValue where no choice waits.
+        """
+    def reserve(self, situations: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Makes room for so many situations in all.
+        """
+    def situation(self, situation: typing.SupportsIndex) -> SituationMemory:
+        """
+        A situation's lists, as a copy; of one never experienced every motion is unexplored. Creates nothing.
+        """
+    def situations(self) -> numpy.ndarray:
+        """
+        Ids of the situations experienced, in that order: an int64 array.
+        """
+    def update(
+        self,
+        situation: typing.SupportsIndex,
+        motion: typing.SupportsIndex,
+        smf: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> Development:
+        """
+        Learns about any situation and motion, whoever chose: delayed outcomes, several robots, replay. A waiting choice goes on waiting. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> LearnerConfig:
+        """
+        Its parameters.
+        """
+    @property
+    def effective_count(self) -> int:
+        """
+        NUM_M: mappings now effective.
+        """
+    @property
+    def explored_count(self) -> int:
+        """
+        NUM_RM: mappings explored so far.
+        """
+    @property
+    def pending(self) -> Choice | None:
+        """
+        The choice that waits for its outcome, or None.
+        """
+    @property
+    def seed(self) -> int:
+        """
+        The seed it began with.
+        """
+    @property
+    def situations_experienced(self) -> int:
+        """
+        How many situations were experienced.
+        """
+
+class Circle:
+    """
+    A round obstacle: center (x, y) [m], radius in [0.01, 1000] m.
+    """
+    def __init__(
+        self,
+        center: collections.abc.Sequence[float],
+        radius: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def center(self) -> tuple[float, float]:
+        """
+        (x, y) [m]
+        """
+    @property
+    def radius(self) -> float:
+        """
+        [m]
+        """
+
+class Rectangle:
+    """
+    A rectangular obstacle: center (x, y) [m], size (width, height) in [0.01, 1000] m, turned by `angle` degrees counter-clockwise.
+    """
+    def __init__(
+        self,
+        center: collections.abc.Sequence[float],
+        size: collections.abc.Sequence[float],
+        angle: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angle(self) -> float:
+        """
+        [degrees]
+        """
+    @property
+    def center(self) -> tuple[float, float]:
+        """
+        (x, y) [m]
+        """
+    @property
+    def size(self) -> tuple[float, float]:
+        """
+        (width, height) [m]
+        """
+
+class Polygon:
+    """
+    An obstacle of any simple outline, convex or not: at least 3 corners (x, y) [m] in either direction, neighbours at least 0.01 m apart.
+    """
+    def __init__(
+        self, corners: collections.abc.Sequence[collections.abc.Sequence[float]]
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def corners(self) -> list[tuple[float, float]]:
+        """
+        (x, y) of each corner [m]
+        """
+
+class World:
+    """
+    An arena with walls, obstacles, a start and a target; checked once, then unchanging.
+
+    Parameters: width, height of the arena in [0.5, 1000] m; start (x, y, heading) and target
+    (x, y) inside it and outside every obstacle, in metres and degrees; obstacles, a list of
+    Circle, Rectangle and Polygon. Raises InvalidValue.
+    """
+    @staticmethod
+    def from_json(text: str) -> World:
+        """
+        The world in JSON text. Raises FileError.
+        """
+    @staticmethod
+    def load(path_or_name: typing.Any) -> World:
+        """
+        The world in a JSON file, or one that ships by its name (see devlearn.worlds()). Raises FileError, naming file and field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        width: typing.SupportsFloat | typing.SupportsIndex = 5.0,
+        height: typing.SupportsFloat | typing.SupportsIndex = 5.0,
+        start: collections.abc.Sequence[float] = (0.5, 0.5, 0.0),
+        target: collections.abc.Sequence[float] = (4.5, 4.5),
+        obstacles: collections.abc.Sequence[Circle | Rectangle | Polygon] = [],
+        name: str = "",
+        description: str = "",
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    @typing.overload
+    def clearance(
+        self,
+        x: typing.SupportsFloat | typing.SupportsIndex,
+        y: typing.SupportsFloat | typing.SupportsIndex,
+        walls_count: bool = False,
+    ) -> float:
+        """
+        d_o: least distance from a point to an obstacle's surface [m], 0 inside one, inf where there is none; with walls_count the walls count too. Numbers or arrays.
+        """
+    @typing.overload
+    def clearance(
+        self,
+        x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
+        walls_count: bool = False,
+    ) -> typing.Any: ...
+    def save(self, path: typing.Any) -> None:
+        """
+        Writes to_json() to a file, atomically. Raises FileError.
+        """
+    def to_json(self) -> str:
+        """
+        JSON text that from_json reads back as an equal world.
+        """
+    def with_start(self, start: collections.abc.Sequence[float]) -> World:
+        """
+        The same world with another start (x, y, heading). Raises InvalidValue.
+        """
+    @property
+    def description(self) -> str: ...
+    @property
+    def hash(self) -> str:
+        """
+        SHA-256 of to_json(), in hexadecimal.
+        """
+    @property
+    def height(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def name(self) -> str: ...
+    @property
+    def obstacles(self) -> list[Circle | Rectangle | Polygon]:
+        """
+        Circle, Rectangle and Polygon, as a list.
+        """
+    @property
+    def start(self) -> devlearn._types.Pose:
+        """
+        Pose [m, m, degrees]
+        """
+    @property
+    def target(self) -> tuple[float, float]:
+        """
+        (x, y) [m]
+        """
+    @property
+    def width(self) -> float:
+        """
+        [m]
+        """
+
+class RobotDef:
+    """
+    The robot of Fig. 1: a circle on two wheels that turns, then drives forward.
+
+    Parameters: radius in [0.01, 10] m; speed in (0, 10] m/s; sample_time in (0, 10] s, at most
+    1 m a step; track, the distance between the wheels in Eq. 2, in (0, 10] m or None for the
+    radius, as printed; steering_angles M [degrees, counter-clockwise positive]; sonar_count in
+    0 ... 720; sonar_fov in [0, 360] degrees about the heading; sonar_range in [0.01, 100] m.
+    Raises InvalidValue.
+    """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> RobotDef:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        radius: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        speed: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        sample_time: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        track: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        steering_angles: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = (
+            -60.0,
+            -30.0,
+            0.0,
+            30.0,
+            60.0,
+        ),
+        sonar_count: typing.SupportsInt | typing.SupportsIndex = 5,
+        sonar_fov: typing.SupportsFloat | typing.SupportsIndex = 180.0,
+        sonar_range: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> RobotDef:
+        """
+        A copy with some fields changed.
+        """
+    def sonar_angles(self) -> list[float]:
+        """
+        Where each sonar looks, relative to the heading, from right to left [degrees].
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def radius(self) -> float:
+        """
+        r [m]
+        """
+    @property
+    def sample_time(self) -> float:
+        """
+        t_s [s]
+        """
+    @property
+    def sonar_count(self) -> int:
+        """
+        Number of sonars.
+        """
+    @property
+    def sonar_fov(self) -> float:
+        """
+        Field of view [degrees].
+        """
+    @property
+    def sonar_range(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def speed(self) -> float:
+        """
+        v [m/s]
+        """
+    @property
+    def steering_angles(self) -> list[float]:
+        """
+        M [degrees]
+        """
+    @property
+    def track(self) -> float | None:
+        """
+        Distance between the wheels [m]; None for the radius.
+        """
+
+class Robot:
+    """
+    The robot's body in a world: how it moves and what its sonars hear. A step is a pure function of (world, pose, motion).
+    """
+    def __init__(self, world: World, robot: RobotDef | None = None) -> None: ...
+    def sonar(self, pose: collections.abc.Sequence[float]) -> numpy.ndarray:
+        """
+        Echo distances from the body's rim, right to left [m]; sonar_range where nothing is heard. A float64 array of sonar_count values.
+        """
+    def step(
+        self, pose: collections.abc.Sequence[float], motion: typing.SupportsIndex
+    ) -> tuple[devlearn._types.Pose, bool]:
+        """
+        (next pose, collided): Eq. 1 exactly where the way is free, Box2D where there is something to touch. Raises InvalidValue.
+        """
+    def step_simulated(
+        self,
+        pose: collections.abc.Sequence[float],
+        motion: typing.SupportsIndex,
+        substeps: typing.SupportsInt | typing.SupportsIndex = 15,
+    ) -> tuple[devlearn._types.Pose, bool]:
+        """
+        The same with Box2D all the way, for comparison. Raises InvalidValue.
+        """
+    def turn_speeds(self, motion: typing.SupportsIndex) -> tuple[float, float]:
+        """
+        (left, right) wheel speeds of the turn, held for one sample time, Eq. 2 [m/s].
+        """
+    @property
+    def definition(self) -> RobotDef:
+        """
+        Its RobotDef.
+        """
+    @property
+    def drive_speeds(self) -> tuple[float, float]:
+        """
+        (left, right) wheel speeds of the drive, held for one sample time [m/s].
+        """
+
+class Step:
+    """
+    Everything about one step of a trial.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def arrived(self) -> bool:
+        """
+        After the step: d_g <= goal_radius.
+        """
+    @property
+    def clearance(self) -> float:
+        """
+        After the step: d_o [m].
+        """
+    @property
+    def collided(self) -> bool:
+        """
+        Whether the body touched something.
+        """
+    @property
+    def effective_count(self) -> int:
+        """
+        After the step: NUM_M.
+        """
+    @property
+    def event(self) -> Event:
+        """
+        What the outcome changed.
+        """
+    @property
+    def explored_count(self) -> int:
+        """
+        After the step: NUM_RM.
+        """
+    @property
+    def goal_distance(self) -> float:
+        """
+        After the step: d_g [m].
+        """
+    @property
+    def kind(self) -> Kind:
+        """
+        Why it was chosen.
+        """
+    @property
+    def motion(self) -> int:
+        """
+        Index in M.
+        """
+    @property
+    def pose(self) -> devlearn._types.Pose:
+        """
+        After the step.
+        """
+    @property
+    def reduced(self) -> int:
+        """
+        Motions removed by reduction development.
+        """
+    @property
+    def round(self) -> int:
+        """
+        The round it belongs to, from 1.
+        """
+    @property
+    def sef(self) -> float:
+        """
+        After the step: SEF(t+1).
+        """
+    @property
+    def situation(self) -> int:
+        """
+        Before the step: S_i.
+        """
+    @property
+    def smf(self) -> float:
+        """
+        SEF(t+1) - SEF(t), Eq. 8.
+        """
+    @property
+    def smf_used(self) -> float:
+        """
+        What was learned from: min(smf, -1) for a collision.
+        """
+
+class TrialConfig:
+    """
+    Everything a trial needs besides the world and the seed; the defaults are the paper's.
+
+    Parameters: learner, evaluation, robot; clearance_source, where d_o of Eq. 6 comes from:
+    'geometric' (exact) or 'sonar' (least echo plus the robot's radius; needs walls_count);
+    walls_count, whether walls count in d_o; goal_radius in (0, 100] m; cell_size in
+    [0.001, 1000] m and heading_bins in 1 ... 3600 of the situation grid. Raises InvalidValue.
+    """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> TrialConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    @staticmethod
+    def paper() -> TrialConfig:
+        """
+        The default, with LearnerConfig.paper().
+        """
+    @staticmethod
+    def step5() -> TrialConfig:
+        """
+        The other reading, with LearnerConfig.step5().
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        learner: LearnerConfig | None = None,
+        evaluation: StateEvaluation | None = None,
+        robot: RobotDef | None = None,
+        clearance_source: str = "geometric",
+        walls_count: bool = False,
+        goal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        cell_size: typing.SupportsFloat | typing.SupportsIndex = 0.25,
+        heading_bins: typing.SupportsInt | typing.SupportsIndex = 12,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> TrialConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def cell_size(self) -> float:
+        """
+        Of the situation grid [m].
+        """
+    @property
+    def clearance_source(self) -> str:
+        """
+        'geometric' or 'sonar'.
+        """
+    @property
+    def evaluation(self) -> StateEvaluation:
+        """
+        StateEvaluation
+        """
+    @property
+    def goal_radius(self) -> float:
+        """
+        Arrived when d_g <= this [m].
+        """
+    @property
+    def heading_bins(self) -> int:
+        """
+        Of the situation grid.
+        """
+    @property
+    def learner(self) -> LearnerConfig:
+        """
+        LearnerConfig
+        """
+    @property
+    def robot(self) -> RobotDef:
+        """
+        RobotDef
+        """
+    @property
+    def walls_count(self) -> bool:
+        """
+        Whether walls count in d_o.
+        """
+
+class Observation:
+    """
+    What an agent knows when it chooses.
+    """
+    @property
+    def clearance(self) -> float:
+        """
+        d_o [m]
+        """
+    @property
+    def goal_distance(self) -> float:
+        """
+        d_g [m]
+        """
+    @property
+    def motion_count(self) -> int:
+        """
+        Choose one in 0 ... motion_count - 1.
+        """
+    @property
+    def pose(self) -> devlearn._types.Pose:
+        """
+        [m, m, degrees]
+        """
+    @property
+    def sef(self) -> float:
+        """
+        SEF here.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        The present situation's id.
+        """
+
+class Outcome:
+    """
+    What an agent is told about the motion it chose.
+    """
+    @property
+    def arrived(self) -> bool:
+        """
+        d_g <= goal_radius.
+        """
+    @property
+    def collided(self) -> bool:
+        """
+        Whether the body touched something.
+        """
+    @property
+    def sef(self) -> float:
+        """
+        SEF there.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        The next situation's id.
+        """
+    @property
+    def smf(self) -> float:
+        """
+        SMF as learned from: min(SMF, -1) for a collision.
+        """
+
+class Trial:
+    """
+    The closed loop: world -> sense -> situation -> choice -> motion -> evaluation ->
+    development -> record.
+
+    Parameters: world; config, a TrialConfig (None: the paper's); seed of the learner's draws;
+    agent: None for a new paper's learner, a Learner (shared, not copied), or any object with
+    choose(observation) -> motion index or Choice, and observe(outcome). Raises InvalidValue.
+
+    A phase that Ctrl-C or an agent's exception ends leaves what it finished in `interrupted`.
+    """
+
+    interrupted: devlearn.record.Record | None
+    def __init__(
+        self,
+        world: World,
+        config: TrialConfig | None = None,
+        seed: typing.SupportsIndex = 0,
+        agent: typing.Any = None,
+    ) -> None: ...
+    def begin_round(self) -> None:
+        """
+        Puts the robot at the start pose for a new round.
+        """
+    def free_learning(
+        self, steps: typing.SupportsIndex, *, echoes: bool = False
+    ) -> devlearn.record.Record:
+        """
+        A new round of `steps` steps from the start pose; reaching the target ends nothing.
+        """
+    def path_learning(
+        self,
+        rounds: typing.SupportsIndex,
+        step_limit: typing.SupportsIndex = 10000,
+        *,
+        echoes: bool = False,
+    ) -> devlearn.record.Record:
+        """
+        `rounds` new rounds from the start pose, each until the target is reached, or failed (arrived False) after `step_limit` steps.
+        """
+    def place(
+        self,
+        x: typing.SupportsFloat | typing.SupportsIndex,
+        y: typing.SupportsFloat | typing.SupportsIndex,
+        heading: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None:
+        """
+        Puts the robot anywhere it fits [m, m, degrees] for a new round. Raises InvalidValue.
+        """
+    def run(self, steps: typing.SupportsIndex, *, echoes: bool = False) -> devlearn.record.Record:
+        """
+        `steps` ticks from where the robot is, in the present round. `echoes` records the sonars, too.
+        """
+    def step(self) -> Step:
+        """
+        One tick of the loop.
+        """
+    @property
+    def agent(self) -> typing.Any:
+        """
+        Whoever chooses.
+        """
+    @property
+    def arrived(self) -> bool:
+        """
+        Whether d_g <= goal_radius.
+        """
+    @property
+    def config(self) -> TrialConfig:
+        """
+        The TrialConfig.
+        """
+    @property
+    def grid(self) -> SituationGrid:
+        """
+        The SituationGrid over the arena.
+        """
+    @property
+    def learner(self) -> Learner:
+        """
+        The paper's learner, where that is the agent; None otherwise.
+        """
+    @property
+    def pose(self) -> devlearn._types.Pose:
+        """
+        Where the robot is [m, m, degrees].
+        """
+    @property
+    def robot(self) -> Robot:
+        """
+        The Robot.
+        """
+    @property
+    def round(self) -> int:
+        """
+        The present round, from 1; 0 before the first.
+        """
+    @property
+    def seed(self) -> int:
+        """
+        The seed it began with.
+        """
+    @property
+    def world(self) -> World:
+        """
+        The World.
+        """
+
+__version__: str
+box2d_version: str
+commit: str
