@@ -22,8 +22,8 @@ constexpr double kFreeMargin = 0.0105;
 // No part of a drive moves further at once, less than the slop [m].
 constexpr double kLongestSubstep = 0.0034;
 constexpr int kLeastSubsteps = 15, kMostSubsteps = 1000;
-// One body and few contacts: many rounds of the solver cost little.
-constexpr int kVelocityIterations = 40, kPositionIterations = 10;
+// So many that a body wedged between two surfaces comes to rest before it is deeper than the slop.
+constexpr int kVelocityIterations = 30, kPositionIterations = 3;
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -219,21 +219,29 @@ double Robot::steering_angle(int motion) const {
   return def_.steering_angles[static_cast<std::size_t>(motion)];
 }
 
-Robot::Step Robot::step(const Pose& pose, int motion) const {
-  const double heading = wrapped_heading(pose.heading + steering_angle(motion));
-  const double length = def_.speed * def_.sample_time;
+double Robot::heading_after(const Pose& pose, int motion) const {
+  return wrapped_heading(pose.heading + steering_angle(motion));
+}
+
+double Robot::step_length() const noexcept { return def_.speed * def_.sample_time; }
+
+std::optional<Pose> Robot::free_step(const Pose& pose, int motion) const {
+  const Pose straight = straight_drive(pose, heading_after(pose, motion), step_length());
   if (!is_finite(pose)) require_place(pose);
-  const Pose straight = straight_drive(pose, heading, length);
-  if (world_->swept_clearance({pose.x, pose.y}, {straight.x, straight.y}) >
-      def_.radius + kFreeMargin) {
-    return {straight, false};
-  }
+  const double clearance = world_->swept_clearance({pose.x, pose.y}, {straight.x, straight.y});
+  if (clearance > def_.radius + kFreeMargin) return straight;
+  return std::nullopt;
+}
+
+Robot::Step Robot::step(const Pose& pose, int motion) const {
+  if (const auto straight = free_step(pose, motion)) return {*straight, false};
   require_place(pose);
+  const double heading = heading_after(pose, motion);
   const int substeps =
-      std::max(kLeastSubsteps, static_cast<int>(std::ceil(length / kLongestSubstep)));
+      std::max(kLeastSubsteps, static_cast<int>(std::ceil(step_length() / kLongestSubstep)));
   const Drive drive = simulate(*world_, def_, {pose.x, pose.y}, heading, substeps);
-  const Pose end =
-      drive.touched ? Pose{pose.x + drive.moved.x, pose.y + drive.moved.y, heading} : straight;
+  const Pose end = drive.touched ? Pose{pose.x + drive.moved.x, pose.y + drive.moved.y, heading}
+                                 : straight_drive(pose, heading, step_length());
   // Wedged deeper than the slop: the body stays where it was, which is no deeper.
   if (!fits({end.x, end.y})) return {{pose.x, pose.y, heading}, true};
   return {end, drive.touched};
@@ -242,7 +250,7 @@ Robot::Step Robot::step(const Pose& pose, int motion) const {
 Robot::Step Robot::step_simulated(const Pose& pose, int motion, int substeps) const {
   require_count("substeps", substeps, 1, kMostSubsteps);
   require_place(pose);
-  const double heading = wrapped_heading(pose.heading + steering_angle(motion));
+  const double heading = heading_after(pose, motion);
   const Drive drive = simulate(*world_, def_, {pose.x, pose.y}, heading, substeps);
   return {{pose.x + drive.moved.x, pose.y + drive.moved.y, heading}, drive.touched};
 }
