@@ -71,24 +71,6 @@ bool operator==(const TrialConfig& a, const TrialConfig& b) noexcept {
          a.heading_bins == b.heading_bins;
 }
 
-// --- the paper's learner as an agent -----------------------------------------------------------
-
-LearnerAgent::LearnerAgent(std::shared_ptr<Learner> learner) : learner_(std::move(learner)) {
-  if (!learner_) throw InvalidValue("LearnerAgent.learner", "null", "a learner");
-}
-
-Choice LearnerAgent::choose(const Observation& observation) {
-  return learner_->choose(observation.situation);
-}
-
-Development LearnerAgent::observe(const Outcome& outcome) { return learner_->learn(outcome.smf); }
-
-void LearnerAgent::cancel() { learner_->cancel(); }
-
-std::int64_t LearnerAgent::explored_count() const { return learner_->explored_count(); }
-
-std::int64_t LearnerAgent::effective_count() const { return learner_->effective_count(); }
-
 // --- the trial ---------------------------------------------------------------------------------
 
 Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed)

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "devlearn/shortest_path.hpp"
 
 namespace devlearn::python {
 
@@ -97,6 +98,21 @@ void bind_robot(py::module_& m) {
           "(left, right) wheel speeds of the drive, held for one sample time [m/s].")
       .def_property_readonly("definition", &Robot::def, py::return_value_policy::copy,
                              "Its RobotDef.");
+
+  m.def(
+      "shortest_path",
+      [](const Robot& robot, const std::optional<Pose>& start, double goal_radius) {
+        const std::vector<Pose> way =
+            shortest_path(robot, start.value_or(robot.world().def().start), goal_radius);
+        std::vector<double> values;
+        for (const Pose& pose : way) values.insert(values.end(), {pose.x, pose.y, pose.heading});
+        return moved_array<double>(std::move(values), {static_cast<py::ssize_t>(way.size()), 3});
+      },
+      py::arg("robot"), py::arg("start") = py::none(), py::arg("goal_radius") = 0.1,
+      "The shortest way, in steps, that the robot's own motions allow from `start` (None: the "
+      "world's) to within goal_radius of the target, touching nothing: poses (steps + 1, 3) [m, m, "
+      "degrees]; empty where there is no way. What a learnt path is measured against. Found by A* "
+      "over poses, those in one cell of a quarter step counting as one. Raises InvalidValue.");
 }
 
 }  // namespace devlearn::python

@@ -52,6 +52,7 @@ class PythonAgent final : public Agent {
 };
 
 std::shared_ptr<Agent> as_agent(const py::object& agent) {
+  if (py::isinstance<RandomAgent>(agent)) return agent.cast<std::shared_ptr<RandomAgent>>();
   if (py::isinstance<Learner>(agent)) {
     return std::make_shared<LearnerAgent>(agent.cast<std::shared_ptr<Learner>>());
   }
@@ -62,7 +63,8 @@ py::object agent_of(const Trial& trial) {
   if (const auto* python = dynamic_cast<const PythonAgent*>(trial.agent().get())) {
     return python->object();
   }
-  return py::cast(trial.learner());
+  if (const auto learner = trial.learner()) return py::cast(learner);
+  return py::cast(std::dynamic_pointer_cast<RandomAgent>(trial.agent()));
 }
 
 RecordObject as_record(const Trial& trial, Record&& record) {
@@ -172,6 +174,11 @@ void bind_messages(py::module_& m) {
       .def_readonly("smf", &Outcome::smf, "SMF as learned from: min(SMF, -1) for a collision.")
       .def_readonly("collided", &Outcome::collided, "Whether the body touched something.")
       .def_readonly("arrived", &Outcome::arrived, "d_g <= goal_radius.");
+
+  py::class_<RandomAgent, std::shared_ptr<RandomAgent>>(
+      m, "RandomAgent", "Uniformly random motions: what learning is measured against.")
+      .def(py::init([](Whole<SeedTag> seed) { return std::make_shared<RandomAgent>(seed.value); }),
+           py::arg("seed") = 0);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ from ._core import (
     Outcome,
     Polygon,
     Random,
+    RandomAgent,
     Rectangle,
     Robot,
     RobotDef,
@@ -35,6 +36,7 @@ from ._core import (
     TrialConfig,
     World,
     __version__,
+    shortest_path,
 )
 from ._types import Pose
 from ._worlds import worlds
@@ -56,6 +58,7 @@ __all__ = [
     "Polygon",
     "Pose",
     "Random",
+    "RandomAgent",
     "Record",
     "Rectangle",
     "Robot",
@@ -68,5 +71,6 @@ __all__ = [
     "TrialConfig",
     "World",
     "__version__",
+    "shortest_path",
     "worlds",
 ]

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "devlearn/situation.hpp"
@@ -56,6 +57,10 @@ class Robot {
   /// outside M or a pose that require_place refuses.
   Step step(const Pose& pose, int motion) const;
 
+  /// The next pose where that is Eq. 1 exactly; nothing where Box2D has to say. Throws InvalidValue
+  /// for a motion outside M.
+  std::optional<Pose> free_step(const Pose& pose, int motion) const;
+
   /// The same step with Box2D all the way, in `substeps` parts (for comparisons).
   Step step_simulated(const Pose& pose, int motion, int substeps = 15) const;
 
@@ -80,6 +85,8 @@ class Robot {
   struct Physics;
 
   double steering_angle(int motion) const;
+  double heading_after(const Pose& pose, int motion) const;
+  double step_length() const noexcept;
   bool fits(Point centre) const noexcept;
 
   std::shared_ptr<const World> world_;
