@@ -187,6 +187,21 @@ TEST_CASE("Eq. 14-17: motions below 1/(3 n) leave, the rest is renormalised and 
   check_orientation(memory, {0.5, 0.5});
 }
 
+TEST_CASE("Eq. 14-17: the threshold is 1/(3 n), to the last digits") {
+  for (int n = 2; n <= 5; ++n) {
+    // From 1/n, this D leads to 1/(3 n): 3 (1 + D) = 1 + D/n.
+    const double d = -2.0 / (3.0 - 1.0 / n);
+    for (const double nudge : {1e-12, -1e-12}) {
+      CAPTURE(n);
+      CAPTURE(nudge);
+      Fresh fresh(5);
+      while (fresh.memory.effective_count() < n) fresh.memory.extend({List::kUnexplored, 0});
+      fresh.memory.orient(0, d + nudge);
+      CHECK(fresh.memory.reduce() == (nudge > 0.0 ? 0 : 1));
+    }
+  }
+}
+
 TEST_CASE("Eq. 14: the rest is divided by 1 - o_b, so that its proportions remain") {
   Fresh fresh(5, {0, 1, 2});
   MotorMemory& memory = fresh.memory;

@@ -1,0 +1,381 @@
+"""The learner as Python sees it: its names, its refusals, its copies and its golden history."""
+
+import copy
+import pathlib
+import pickle
+
+import devlearn
+import numpy as np
+import pytest
+from devlearn import Event, Kind, Learner, LearnerConfig
+from hypothesis import given
+from hypothesis import strategies as st
+
+GOLDEN = pathlib.Path(__file__).parents[1] / "golden"
+
+situations = st.integers(0, 2**63 - 1)
+seeds = st.integers(0, 2**64 - 1)
+finite = st.floats(allow_nan=False, allow_infinity=False)
+fractions = st.floats(0, 1, exclude_min=True, exclude_max=True)
+configs = st.builds(
+    LearnerConfig,
+    motion_count=st.integers(1, 9),
+    eta=fractions,
+    sigma=fractions,
+    c1=st.floats(0, 1e6),
+    c2=st.floats(-1e6, 1e6),
+    on_negative=st.sampled_from(["abandon", "weaken"]),
+    when_exhausted=st.sampled_from(["retry", "wander"]),
+)
+
+
+def lists(learner, situation):
+    memory = learner.situation(situation)
+    return (
+        memory.effective,
+        memory.ineffective,
+        memory.unexplored,
+        memory.orientation,
+        memory.times_learned,
+    )
+
+
+def state(learner):
+    """Everything that a learner shows of itself."""
+    pending = learner.pending
+    return (
+        learner.config,
+        learner.seed,
+        pending and (pending.motion, pending.kind),
+        learner.explored_count,
+        learner.effective_count,
+        learner.situations_experienced,
+        [(s, lists(learner, s)) for s in learner.situations().tolist()],
+    )
+
+
+def history(learner, steps, seed=0):
+    """What a learner does in some steps of a random task."""
+    random = np.random.default_rng(seed)
+    done = []
+    for _ in range(steps):
+        choice = learner.choose(random.integers(9))
+        development = learner.learn(random.normal(0.5, 3))
+        done.append((choice.motion, choice.kind, development.event, development.reduced))
+    return done
+
+
+def refused(quantity, value, call, *args, **kwargs):
+    """Checks that a call is refused, by name and value, as a ValueError."""
+    with pytest.raises(devlearn.InvalidValue) as caught:
+        call(*args, **kwargs)
+    error = caught.value
+    assert isinstance(error, ValueError)
+    assert (error.quantity, error.value) == (quantity, value)
+    assert error.allowed
+    assert str(error) == f"{quantity}: got {value}; expected {error.allowed}"
+
+
+# --- configuration -------------------------------------------------------------------------------
+
+
+def test_the_defaults_are_the_papers():
+    paper = {
+        "motion_count": 5,
+        "eta": 0.05,
+        "sigma": 0.3,
+        "c1": 0.5,
+        "c2": 1.0,
+        "on_negative": "abandon",
+        "when_exhausted": "retry",
+    }
+    assert LearnerConfig().to_dict() == LearnerConfig.paper().to_dict() == paper
+    step5 = {**paper, "on_negative": "weaken", "when_exhausted": "wander"}
+    assert LearnerConfig.step5().to_dict() == step5
+    assert LearnerConfig.step5() == LearnerConfig(**step5) != LearnerConfig.paper()
+    assert Learner().config == LearnerConfig.paper()
+    assert Learner().seed == 0
+
+
+@given(configs)
+def test_a_configuration_survives_dict_and_pickle_to_the_bit(config):
+    assert LearnerConfig.from_dict(config.to_dict()) == config
+    assert LearnerConfig(**config.to_dict()) == config
+    assert pickle.loads(pickle.dumps(config)) == config
+    assert Learner(config).config == config
+
+
+def test_a_dict_may_leave_out_fields_but_not_invent_them():
+    assert LearnerConfig.from_dict({}) == LearnerConfig()
+    assert LearnerConfig.from_dict({"sigma": 0.6}) == LearnerConfig(sigma=0.6)
+    with pytest.raises(devlearn.InvalidValue) as caught:
+        LearnerConfig.from_dict({"sigmma": 0.6})
+    assert caught.value.quantity == "LearnerConfig.sigmma"
+    assert "sigma" in caught.value.allowed
+
+
+@pytest.mark.parametrize(
+    ("field", "bad"),
+    [
+        *[("motion_count", bad) for bad in (0, -1, 65536)],
+        *[("eta", bad) for bad in (0.0, 1.0, -0.5, float("nan"), float("inf"))],
+        *[("sigma", bad) for bad in (0.0, 1.0, 1.5, float("nan"), -float("inf"))],
+        *[("c1", bad) for bad in (-0.1, 1000001.0, float("nan"), float("inf"))],
+        *[("c2", bad) for bad in (-1000001.0, 1000001.0, float("nan"))],
+    ],
+)
+def test_a_parameter_out_of_its_range_is_refused_by_name(field, bad):
+    value = f"{bad:g}" if abs(bad) < 1e5 or bad != bad else str(bad).removesuffix(".0")
+    refused(f"LearnerConfig.{field}", value, LearnerConfig, **{field: bad})
+    refused(f"LearnerConfig.{field}", value, LearnerConfig.from_dict, {field: bad})
+
+
+@pytest.mark.parametrize("field", ["on_negative", "when_exhausted"])
+def test_an_unknown_option_is_refused_by_name(field):
+    refused(f"LearnerConfig.{field}", "'forget'", LearnerConfig, **{field: "forget"})
+
+
+# --- the loop ------------------------------------------------------------------------------------
+
+
+def test_the_names_that_scripts_rely_on():
+    learner = Learner(config=LearnerConfig(motion_count=4), seed=3)
+    choice = learner.choose(situation=17)
+    assert choice.kind is Kind.EXPLORE
+    assert learner.pending == choice
+    development = learner.learn(smf=1.0, motion=2)
+    assert (development.situation, development.motion) == (17, 2)
+    assert (development.event, development.reduced) == (Event.EXTENSION, 0)
+    assert learner.update(situation=17, motion=0, smf=-1.0).event is Event.REJECTION
+    assert lists(learner, 17) == ([2], [0], [1, 3], [1.0], [1])
+    assert learner.choose(5) is not None
+    assert learner.cancel() is None
+    assert learner.pending is None
+    assert learner.situations().tolist() == [17, 5]
+    assert learner.situations().dtype == np.int64
+    assert learner.reserve(situations=1000) is None
+    counts = learner.explored_count, learner.effective_count, learner.situations_experienced
+    assert counts == (2, 1, 2)
+    assert learner.seed == 3
+    assert learner.config == LearnerConfig(motion_count=4)
+
+
+def test_kinds_and_events_have_the_numbers_of_records():
+    assert [(kind.name, int(kind)) for kind in Kind] == [
+        ("EXPLORE", 0),
+        ("EXPLOIT", 1),
+        ("EXHAUSTED", 2),
+        ("UNSTATED", 3),
+    ]
+    assert [(event.name, int(event)) for event in Event] == [
+        ("NOTHING", 0),
+        ("EXTENSION", 1),
+        ("REJECTION", 2),
+        ("ORIENTATION", 3),
+        ("ABANDONMENT", 4),
+    ]
+
+
+@given(configs, seeds, st.lists(st.tuples(st.integers(0, 3), finite), max_size=60))
+def test_the_proofs_hold_whatever_is_experienced(config, seed, experience):
+    learner = Learner(config, seed)
+    for situation, smf in experience:
+        choice = learner.choose(situation)
+        learner.learn(smf)
+        effective, ineffective, unexplored, orientation, times_learned = lists(learner, situation)
+        assert sorted(effective + ineffective + unexplored) == list(range(config.motion_count))
+        assert all(0 <= o <= 1 for o in orientation)
+        assert not orientation or abs(sum(orientation) - 1) <= 1e-9
+        assert len(orientation) == len(times_learned) == len(effective)
+        assert choice.motion not in unexplored
+    everywhere = [lists(learner, s) for s in learner.situations().tolist()]
+    assert learner.effective_count == sum(len(e) for e, *_ in everywhere)
+    assert learner.explored_count == sum(len(e) + len(i) for e, i, *_ in everywhere)
+
+
+@given(situations)
+def test_looking_at_a_situation_creates_nothing(situation):
+    learner = Learner()
+    before = state(learner)
+    assert lists(learner, situation) == ([], [], [0, 1, 2, 3, 4], [], [])
+    assert state(learner) == before
+    learner.choose(situation)
+    assert learner.situations().tolist() == [situation]
+
+
+@given(st.integers(0, 1000))
+def test_what_is_shown_of_a_situation_is_a_copy(seed):
+    learner = Learner(seed=seed)
+    history(learner, 30)
+    memory = learner.situation(0)
+    before = state(learner)
+    memory.effective.append(99)
+    memory.orientation.clear()
+    learner.situations()[:] = -1
+    assert state(learner) == before
+
+
+@pytest.mark.parametrize(
+    "integer",
+    [np.int8, np.uint8, np.int32, np.uint32, np.int64, np.uint64],
+    ids=lambda t: t.__name__,
+)
+def test_numpys_whole_numbers_and_floats_are_as_good_as_pythons(integer):
+    ours, theirs = Learner(seed=integer(7)), Learner(seed=7)
+    for situation in range(50):
+        assert ours.choose(integer(situation)) == theirs.choose(situation)
+        ours.learn(np.float64(1.5), motion=integer(3))
+        theirs.learn(1.5, motion=3)
+        ours.update(integer(situation), integer(1), np.float32(-0.5))
+        theirs.update(situation, 1, -0.5)
+        assert lists(ours, integer(situation)) == lists(theirs, situation)
+    assert state(ours) == state(theirs)
+
+
+@given(situations, st.integers(0, 4), finite)
+def test_an_update_leaves_a_waiting_choice_waiting(situation, motion, smf):
+    learner = Learner()
+    choice = learner.choose(3)
+    learner.update(situation, motion, smf)
+    assert learner.pending == choice
+    assert learner.learn(0.0).situation == 3
+
+
+# --- refusals ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("waiting", [False, True])
+def test_what_is_refused_changes_nothing(waiting):
+    learner = Learner(seed=5)
+    history(learner, 100)
+    if waiting:
+        learner.choose(2)
+    twin = copy.copy(learner)
+    before = state(learner)
+    for bad in (-1, -(2**63), 2**63, 10**30):
+        refused("situation", str(bad), learner.update, bad, 0, 1.0)
+        refused("situation", str(bad), learner.situation, bad)
+        if not waiting:
+            refused("situation", str(bad), learner.choose, bad)
+    for bad in (-1, 5, 2**31, -(10**30)):
+        refused("motion", str(bad), learner.update, 0, bad, 1.0)
+        if waiting:
+            refused("motion", str(bad), learner.learn, 1.0, bad)
+    for bad in (float("nan"), float("inf"), -float("inf")):
+        refused("smf", str(bad), learner.update, 0, 0, bad)
+        if waiting:
+            refused("smf", str(bad), learner.learn, bad)
+    for bad in (-1, 2**32 - 1, 10**30):
+        refused("situations", str(bad), learner.reserve, bad)
+    if waiting:
+        second = "a second choice before the first met its outcome"
+        refused("Learner.choose", second, learner.choose, 0)
+    else:
+        none = "no choice that waits for its outcome"
+        refused("Learner.learn", none, learner.learn, 1.0)
+        refused("Learner.learn", none, learner.learn, 1.0, 2)
+        refused("Learner.cancel", none, learner.cancel)
+    assert state(learner) == before
+    if waiting:
+        learner.learn(1.0)
+        twin.learn(1.0)
+    assert history(learner, 300) == history(twin, 300)
+
+
+@pytest.mark.parametrize("bad", [-1, 2**64, 10**30])
+def test_a_seed_out_of_its_range_is_refused(bad):
+    refused("seed", str(bad), Learner, seed=bad)
+
+
+@pytest.mark.parametrize("nonsense", ["3", None, 3.5, [3]])
+def test_what_is_no_whole_number_is_a_type_error(nonsense):
+    learner = Learner()
+    for call in (learner.choose, learner.situation):
+        with pytest.raises(TypeError):
+            call(nonsense)
+    assert learner.pending is None
+    assert learner.situations_experienced == 0
+
+
+# --- same seed, same history ---------------------------------------------------------------------
+
+
+@given(configs, seeds)
+def test_copies_are_independent_and_go_on_alike(config, seed):
+    original = Learner(config, seed)
+    history(original, 40, seed=1)
+    original.choose(2)
+    for copied in (copy.copy(original), copy.deepcopy(original), original.copy()):
+        assert state(copied) == state(original)
+        twin = copy.copy(original)
+        before = state(original)
+        copied.learn(1.0)
+        assert state(original) == before
+        twin.learn(1.0)
+        assert history(copied, 40, seed=2) == history(twin, 40, seed=2)
+        assert state(copied) == state(twin)
+
+
+@given(configs, seeds)
+def test_the_same_seed_gives_the_same_history(config, seed):
+    ours, theirs = Learner(config, seed), Learner(config, seed)
+    theirs.reserve(5000)
+    assert history(ours, 100) == history(theirs, 100)
+    assert state(ours) == state(theirs)
+
+
+def test_another_seed_gives_another_history():
+    assert history(Learner(seed=1), 50) != history(Learner(seed=2), 50)
+
+
+def golden_history(config):
+    """The world-free history of tests/golden/README.md, line by line."""
+
+    def smf(situation, motion, t):
+        of_mapping = (7 * situation**2 + 29 * motion + 13 * situation * motion) % 41 - 16
+        return of_mapping + ((5 * t * t + 3 * t) % 17 - 8) / 4
+
+    def developed(what, situation, development):
+        counts = learner.explored_count, learner.effective_count
+        values = (situation, development.motion, development.event, development.reduced, *counts)
+        orientation = [o.hex() for o in learner.situation(situation << 57).orientation]
+        return " ".join([what, *(str(int(value)) for value in values), *orientation])
+
+    learner = Learner(config, seed=2020)
+    situation = 0
+    for t in range(5000):
+        choice = learner.choose(situation << 57)
+        yield f"choose {situation} {choice.motion} {int(choice.kind)}"
+        ran = choice.motion
+        if t % 11 == 10:
+            learner.cancel()
+        elif t % 13 == 12:
+            ran = (ran + 1) % config.motion_count
+            yield developed("learn", situation, learner.learn(smf(situation, ran, t), ran))
+        else:
+            yield developed("learn", situation, learner.learn(smf(situation, ran, t)))
+        if t % 7 == 6:
+            other, motion = (3 * situation + 1) % 37, t % config.motion_count
+            development = learner.update(other << 57, motion, smf(other, motion, t))
+            yield developed("update", other, development)
+        situation = (3 * situation + 7 * ran + 1 + t % 2) % 37
+    for situation in learner.situations().tolist():
+        memory = learner.situation(situation)
+        columns = memory.effective, memory.ineffective, memory.unexplored, memory.times_learned
+        texts = [f"situation {situation}", *(" ".join(map(str, c)) for c in columns)]
+        orientation = " ".join(o.hex() for o in memory.orientation)
+        yield " ".join(" | ".join([*texts, orientation]).split())
+
+
+@pytest.mark.parametrize("preset", ["paper", "step5"])
+def test_python_repeats_the_golden_history_of_cpp_to_the_last_bit(preset):
+    golden = (GOLDEN / f"learner_{preset}.txt").read_text().splitlines()
+    lines = list(golden_history(getattr(LearnerConfig, preset)()))
+    cut = golden.index("...")
+    first, last = golden[1:cut], golden[cut + 1 :]
+    assert lines[: len(first)] == first
+    assert lines[-len(last) :] == last
+    digest = 0xCBF29CE484222325  # FNV-1a
+    for byte in "".join(line + "\n" for line in lines).encode():
+        digest = (digest ^ byte) * 0x100000001B3 % 2**64
+    assert golden[0] == f"hash {digest:016x} of {len(lines)} lines"
