@@ -1,0 +1,128 @@
+"""What the claims of section VI are measured by: plain functions of records.
+
+A run is two rounds of free learning, ``first`` and ``second``, and then ``paths``, the rounds of
+path learning. Nothing here runs a trial.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from ._core import Event, Kind
+from .record import Record
+
+NEAR_TARGET = 0.6  # [m]
+SETTLED_ROUNDS = 40
+
+
+def first_arrival(record: Record, entry: int = 0) -> int | None:
+    """Step, from 1, after which the target was first reached; None where it never was."""
+    arrived = record.arrived[record.steps_of(entry)]
+    return int(np.argmax(arrived)) + 1 if arrived.any() else None
+
+
+def share_near_target(record: Record, last: int, distance: float = NEAR_TARGET) -> float:
+    """Share of the last steps that end within ``distance`` [m] of the target."""
+    return float(np.mean(record.goal_distance[-last:] <= distance))
+
+
+def cells_visited(record: Record) -> int:
+    """How many different cells of the situation grid the steps began in, whatever the heading."""
+    return len(np.unique(record.situation // record.config.heading_bins))
+
+
+def change_after(counts: npt.NDArray[np.int64], step: int) -> float:
+    """|Change| of a count from a step to the end, as a share of its final value."""
+    last = int(counts[-1])
+    return abs(last - int(counts[step - 1])) / last if last else 0.0
+
+
+def motions_by_round(record: Record) -> list[bytes]:
+    """The motions of each round, as comparable values."""
+    return [record.motion[record.steps_of(i)].tobytes() for i in range(len(record.rounds))]
+
+
+def settled_round(record: Record, least: int = SETTLED_ROUNDS) -> int | None:
+    """Number of the round from which to the last, at least ``least``, all motions are the same.
+
+    None where the run has not settled, or its last round never arrived.
+    """
+    rounds = motions_by_round(record)
+    if not rounds or not record.rounds["arrived"][-1]:
+        return None
+    same = 1
+    while same < len(rounds) and rounds[-1 - same] == rounds[-1]:
+        same += 1
+    return int(record.rounds["round"][-same]) if same >= least else None
+
+
+def habit(record: Record) -> str | None:
+    """A short name of the path on which a run settled: equal for equal motions."""
+    if settled_round(record) is None:
+        return None
+    return hashlib.sha256(motions_by_round(record)[-1]).hexdigest()[:12]
+
+
+def late_increases(record: Record) -> dict[str, list[int]]:
+    """Rounds of the second half that explored an unexplored motion: [how many, of how many].
+
+    ``longer``: rounds that took more steps than the one before; ``others``: those that did not.
+    """
+    steps = record.rounds["steps"]
+    explored = np.array(
+        [(record.kind[record.steps_of(i)] == Kind.EXPLORE).any() for i in range(len(steps))]
+    )
+    half = len(steps) // 2
+    longer = np.diff(steps[half - 1 :]) > 0 if half else np.zeros(0, dtype=bool)
+    late = explored[half:] if half else np.zeros(0, dtype=bool)
+    return {
+        "longer": [int(late[longer].sum()), int(longer.sum())],
+        "others": [int(late[~longer].sum()), int((~longer).sum())],
+    }
+
+
+def mappings(records: Sequence[Record]) -> npt.NDArray[np.int64]:
+    """The mapping (situation, motion) of every step, as one number each."""
+    motions = len(records[0].config.robot.steering_angles)
+    return np.concatenate([record.situation * motions + record.motion for record in records])
+
+
+def repeated_explorations(records: Sequence[Record]) -> int:
+    """Explorations of mappings beyond the first; the method promises none."""
+    explored = mappings(records)[np.concatenate([r.kind for r in records]) == Kind.EXPLORE]
+    return len(explored) - len(np.unique(explored))
+
+
+def known_ineffective(records: Sequence[Record]) -> npt.NDArray[np.bool_]:
+    """Steps that execute a mapping whose first execution proved ineffective, that one left out."""
+    tried = mappings(records)
+    _, first, which = np.unique(tried, return_index=True, return_inverse=True)
+    smf = np.concatenate([record.smf_used for record in records])
+    again = (smf[first] < 0)[which.reshape(-1)]
+    again[first] = False
+    return again
+
+
+def share(hits: npt.NDArray[np.bool_]) -> float:
+    """Share of True; 0 of none."""
+    return float(np.mean(hits)) if len(hits) else 0.0
+
+
+def exploited_ineffective(records: Sequence[Record]) -> float:
+    """Share of exploited motions that met SMF < 0 (Proof III's premise is that none does)."""
+    smf = np.concatenate([record.smf_used for record in records])
+    exploited = np.concatenate([record.kind for record in records]) == Kind.EXPLOIT
+    return share(smf[exploited] < 0)
+
+
+def computing_waste(records: Sequence[Record]) -> float:
+    """Share of updates of orientations that follow a mapping which turned out ineffective."""
+    smf = np.concatenate([record.smf_used for record in records])
+    event = np.concatenate([record.event for record in records])
+    updates = np.isin(event, [Event.EXTENSION, Event.ORIENTATION, Event.ABANDONMENT])
+    return share(smf[updates] < 0)
+

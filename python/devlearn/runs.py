@@ -1,0 +1,182 @@
+"""Many independent runs over processes: journalled, so that a stopped sweep goes on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import multiprocessing
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from . import _core
+from .errors import FileError
+
+Job = Mapping[str, Any]
+Result = dict[str, Any]
+
+
+class Progress:
+    """A bar on standard error where a person watches, nothing where it is piped."""
+
+    def __init__(self, what: str, total: int, done: int = 0) -> None:
+        self._what, self._total, self._done = what, total, done
+        self._began, self._before = time.monotonic(), done
+        self._shown = sys.stderr.isatty()
+
+    def __enter__(self) -> Progress:
+        self._draw()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._shown:
+            sys.stderr.write("\n")
+
+    def advance(self) -> None:
+        """One more is done."""
+        self._done += 1
+        self._draw()
+
+    def _draw(self) -> None:
+        if not self._shown:
+            return
+        width = 30
+        filled = width * self._done // max(1, self._total)
+        finished = self._done - self._before
+        left = ""
+        if finished and self._done < self._total:
+            seconds = (time.monotonic() - self._began) / finished * (self._total - self._done)
+            left = f", about {seconds:.0f} s left"
+        bar = "█" * filled + "·" * (width - filled)
+        sys.stderr.write(f"\r\x1b[K{self._what} {bar} {self._done}/{self._total}{left}")
+        sys.stderr.flush()
+
+
+class Journal:
+    """Finished runs in a file of JSON lines, found again by what was run and by which code."""
+
+    def __init__(self, path: Path) -> None:
+        """Opens or makes it. Raises FileError."""
+        self._path = path
+        self._code = code_fingerprint()
+        self._found: dict[str, Result] = {}
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            if path.exists():
+                self._read(path.read_bytes())
+            self._file = path.open("ab")
+        except OSError as error:
+            raise FileError(str(path), "", error.strerror, "a file that can be written") from error
+
+    def _read(self, content: bytes) -> None:
+        # The last line may have been cut off by a kill; a fresh one must not be glued to it.
+        whole = content[: content.rfind(b"\n") + 1]
+        if len(whole) < len(content):
+            os.truncate(self._path, len(whole))
+        for line in whole.splitlines():
+            try:
+                entry = json.loads(line)
+                self._found[entry["key"]] = entry["result"]
+            except (ValueError, KeyError, TypeError):
+                continue
+
+    def key(self, job: Job) -> str:
+        """What a job is found by."""
+        text = json.dumps([self._code, job], sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    def find(self, job: Job) -> Result | None:
+        """The result of a finished job, or None."""
+        return self._found.get(self.key(job))
+
+    def add(self, job: Job, result: Result) -> None:
+        """Keeps a result, at once and on the disk."""
+        key = self.key(job)
+        self._found[key] = result
+        self._file.write(json.dumps({"key": key, "result": result}).encode() + b"\n")
+        self._file.flush()
+
+    def close(self) -> None:
+        """Closes the file."""
+        self._file.close()
+
+
+def code_fingerprint() -> str:
+    """A hash of all code that a result depends on."""
+    digest = hashlib.sha256()
+    files = [Path(_core.__file__), *sorted(Path(__file__).parent.glob("*.py"))]
+    for file in files:
+        digest.update(file.read_bytes())
+    return digest.hexdigest()
+
+
+def run_all(
+    function: Callable[[Job], Result],
+    jobs: Sequence[Job],
+    journal: Journal,
+    *,
+    workers: int | None = None,
+    what: str = "runs",
+) -> list[Result]:
+    """``function`` of every job, over processes; results in the order of the jobs.
+
+    Jobs in the journal are not run again. Results do not depend on the number of workers (default:
+    one a core). Ctrl-C stops the workers and raises KeyboardInterrupt; what is finished is in the
+    journal.
+    """
+    results = [journal.find(job) for job in jobs]
+    missing = [i for i, result in enumerate(results) if result is None]
+    with Progress(what, len(jobs), len(jobs) - len(missing)) as progress:
+        for i, result in _completed(function, jobs, missing, workers or os.cpu_count() or 1):
+            journal.add(jobs[i], result)
+            results[i] = result
+            progress.advance()
+    return [result for result in results if result is not None]
+
+
+def _ignore_interrupts() -> None:
+    # Ctrl-C reaches every process of a terminal; the parent alone decides what becomes of it.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _completed(
+    function: Callable[[Job], Result], jobs: Sequence[Job], which: Iterable[int], workers: int
+) -> Iterator[tuple[int, Result]]:
+    remaining = list(which)
+    if workers == 1 or len(remaining) < 2:
+        for i in remaining:
+            yield i, function(jobs[i])
+        return
+    # Processes, not threads: Box2D keeps global counters. Spawned, so that they inherit nothing.
+    context = multiprocessing.get_context("spawn")
+    executor = ProcessPoolExecutor(
+        min(workers, len(remaining)), mp_context=context, initializer=_ignore_interrupts
+    )
+    try:
+        # Few at a time: what is queued need not be undone when someone stops.
+        running: dict[Future[Result], int] = {}
+        queue = iter(remaining)
+        while True:
+            while len(running) < 2 * workers and (i := next(queue, None)) is not None:
+                running[executor.submit(function, jobs[i])] = i
+            if not running:
+                break
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                yield running.pop(future), future.result()
+    except BaseException:
+        for process in multiprocessing.active_children():
+            process.terminate()
+        executor.shutdown(wait=False, cancel_futures=True)
+        raise
+    executor.shutdown()
