@@ -45,7 +45,6 @@ from ._core import (
     Event,
     Kind,
     Learner,
-    Polygon,
     Rectangle,
     Robot,
     RobotDef,
@@ -123,19 +122,38 @@ _F = TypeVar("_F", bound=Callable[..., Any])
 def _styled(plot: _F) -> _F:
     @functools.wraps(plot)
     def wrapper(*args: Any, **kwargs: Any) -> Any:
-        with mpl.rc_context(STYLE):
+        with mpl.rc_context(cast(Any, STYLE)):
             return plot(*args, **kwargs)
 
     return cast(_F, wrapper)
 
 
-def _axes(ax: Axes | None, height: float, **subplot: Any) -> Axes:
+def _axes(ax: Axes | None, height: float) -> Axes:
     if ax is not None:
         return ax
     import matplotlib.pyplot as plt
 
-    _, ax = plt.subplots(figsize=(COLUMN, height), layout="constrained", subplot_kw=subplot)
+    _, ax = plt.subplots(figsize=(COLUMN, height), layout="constrained")
     return ax
+
+
+def _arena_axes(
+    ax: Axes | None, world: World, *, bar: bool = False, legend: bool = False, title: bool = False
+) -> Axes:
+    """Axes for a map of the world, in a figure as high as that needs."""
+    if ax is not None:
+        return ax
+    import matplotlib.pyplot as plt
+
+    # Around the axes, in inches. Automatic layouts do not foresee what equal aspects leave over.
+    left, right, bottom, top = 0.4, 0.72 if bar else 0.1, 0.4, 0.08
+    bottom += 0.22 * legend
+    top += 0.2 * title
+    width = COLUMN - left - right
+    height = width * world.height / world.width
+    total = bottom + height + top
+    figure = plt.figure(figsize=(COLUMN, total))
+    return figure.add_axes((left / COLUMN, bottom / total, width / COLUMN, height / total))
 
 
 def _legend_below(ax: Axes, handles: Sequence[Any], columns: int | None = None) -> None:
@@ -149,7 +167,8 @@ def _legend_below(ax: Axes, handles: Sequence[Any], columns: int | None = None) 
         ncol=columns or len(handles),
         borderaxespad=0.0,
         handletextpad=0.5,
-        columnspacing=1.2,
+        columnspacing=1.0,
+        handlelength=2.2 if columns else 1.5,
     )
 
 
@@ -182,15 +201,17 @@ def _draw_obstacles(ax: Axes, world: World, **how: Any) -> None:
     for i, obstacle in enumerate(world.obstacles):
         patch: patches.Patch
         if isinstance(obstacle, Circle):
-            patch = patches.Circle(tuple(obstacle.center), obstacle.radius, **how)
+            patch = patches.Circle((obstacle.center[0], obstacle.center[1]), obstacle.radius, **how)
         elif isinstance(obstacle, Rectangle):
             patch = patches.Polygon(_corners(obstacle), closed=True, **how)
         else:
-            patch = patches.Polygon(
-                np.array(cast(Polygon, obstacle).corners, dtype=float), closed=True, **how
-            )
+            patch = patches.Polygon(np.array(obstacle.corners, dtype=float), closed=True, **how)
         patch.set_gid(f"obstacle-{i}")
         ax.add_patch(patch)
+        # What lies beyond the walls, where a world lets an obstacle reach into them, is not shown.
+        patch.set_clip_path(
+            patches.Rectangle((0, 0), world.width, world.height, transform=ax.transData)
+        )
 
 
 def _corners(rectangle: Rectangle) -> npt.NDArray[np.float64]:
@@ -288,7 +309,7 @@ def plot_world(
     body = robot if robot is not None else _config_of(world, None).robot
     place = _world_of(world)
     stand = tuple(place.start) if pose is None else tuple(pose)
-    ax = _axes(ax, 3.6)
+    ax = _arena_axes(ax, place, legend=legend)
     _draw_arena(ax, place)
     _draw_obstacles(ax, place)
     handles = [_robot_handle()]
@@ -391,7 +412,7 @@ def plot_sef(
         raise InvalidValue("kind", kind, '"map" or "surface"')
     energy = _energy(world, evaluation, walls_count, points, floor)
     place = _world_of(world)
-    ax = _axes(ax, 3.1)
+    ax = _arena_axes(ax, place, bar=colorbar)
     dx, dy = energy.x[1] - energy.x[0], energy.y[1] - energy.y[0]
     image = ax.imshow(
         energy.sef,
@@ -435,9 +456,10 @@ def plot_sef_surface(
     energy = _energy(world, evaluation, walls_count, points, floor)
     place = _world_of(world)
     if ax is None:
-        ax = _axes(None, 3.0, projection="3d")
-        ax.figure.set_layout_engine("none")  # it does not see the labels of three dimensions
-        ax.set_position((0.0, 0.04, 0.88, 0.96))
+        import matplotlib.pyplot as plt
+
+        figure = plt.figure(figsize=(COLUMN, 3.0))
+        ax = figure.add_axes((0.1, 0.09, 0.85, 0.93), projection="3d")
     if ax.name != "3d":
         raise InvalidValue("ax", f"{ax.name} axes", 'axes with projection "3d"')
     solid = cast(Any, ax)  # Axes3D, which matplotlib does not type
@@ -462,7 +484,9 @@ def plot_sef_surface(
     solid.set_ylim(0, place.height)
     for axis in (solid.xaxis, solid.yaxis):
         axis.set_major_locator(MaxNLocator(nbins=6, integer=True))
-    solid.set_box_aspect((place.width, place.height, 0.7 * min(place.width, place.height)))
+    solid.set_box_aspect(
+        (place.width, place.height, 0.7 * min(place.width, place.height)), zoom=0.92
+    )
     solid.view_init(elev=42, azim=-125)
     return ax
 
@@ -508,7 +532,8 @@ def plot_trajectory(
         raise InvalidValue("by", by, '"kind", "time" or None')
     path = record.path(entry)
     place = record.world
-    ax = _axes(ax, 3.6 if by == "kind" else 3.3)
+    timed, kinded = by == "time", by == "kind"
+    ax = _arena_axes(ax, place, bar=legend and timed, legend=legend and kinded, title=title)
     if world:
         _draw_arena(ax, place)
         _draw_obstacles(ax, place)
@@ -624,35 +649,38 @@ def plot_counts(
     ax: Axes | None = None,
     entry: int = 0,
     steps: tuple[int, int] | None = None,
+    relative: bool = False,
     legend: bool = True,
 ) -> Axes:
     """Draw how many mappings were explored, and how many are effective, by step: Fig. 7.
 
     Steps count from 1; the values at step t are those before its outcome (``counts_before``).
     ``steps=(start, stop)`` is a half-open range: ``(0, 30)`` shows the steps 1 to 30 (Fig. 8).
+    ``relative`` counts from what there was at the first step shown, which the legend then gives.
     """
     start, stop = _window(record, entry, steps)
     explored, effective = counts_before(record, entry)
     number = np.arange(start + 1, stop + 1)
     few = len(number) <= 60
     ax = _axes(ax, 2.4)
-    for name, values, how, marker in (
-        ("explored, NUM$_\\mathrm{RM}$", explored, _EXPLORED, "o"),
-        ("effective, NUM$_\\mathrm{M}$", effective, _EFFECTIVE, "s"),
+    for gid, name, values, how, marker in (
+        ("explored", "explored, NUM$_\\mathrm{RM}$", explored, _EXPLORED, "o"),
+        ("effective", "effective, NUM$_\\mathrm{M}$", effective, _EFFECTIVE, "s"),
     ):
+        base = int(values[start]) if relative and len(number) else 0
         ax.plot(
             number,
-            values[start:stop],
+            values[start:stop] - base,
             marker=marker if few else None,
             markersize=2.6,
-            label=name,
-            gid="explored" if values is explored else "effective",
+            label=name + (f" \u2212 {_thousands(base)}" if relative else ""),
+            gid=gid,
             **how,
         )
     ax.set_xlabel("step")
-    ax.set_ylabel("sensorimotor mappings")
+    ax.set_ylabel(f"mappings since step {start + 1}" if relative else "sensorimotor mappings")
     _whole_numbers(ax.xaxis, ax.yaxis)
-    if not few:
+    if not few and not relative:
         ax.set_ylim(bottom=0)
     if legend:
         ax.legend(loc="upper left" if few else "best", handlelength=2.4)
@@ -809,31 +837,43 @@ def plot_episodes(
     """Draw the mapping counts of a window with the paper's four kinds of episode marked: Fig. 8.
 
     The rectangles a to d are those of ``find_episodes``. Of a kind that does not occur in the
-    window the picture says so; ``window=find_window(record, "d")`` shows one that has it. Where
+    window the picture says so; ``window=find_window(record, "d")`` shows one that has it, the
+    counts beginning at 0 in any window but the first. Where
     d is absent, d* marks an abandonment, which lowers NUM_M as well (``find_abandonment``).
     """
     start, stop = _window(record, entry, window)
-    ax = plot_counts(record, ax=_axes(ax, 3.0), entry=entry, steps=(start, stop), legend=False)
-    explored, effective = counts_before(record, entry)
+    relative = start > 0
+    ax = plot_counts(
+        record,
+        ax=_axes(ax, 3.0),
+        entry=entry,
+        steps=(start, stop),
+        relative=relative,
+        legend=False,
+    )
+    counts = np.stack(counts_before(record, entry))
     episodes = find_episodes(record, entry, window)
     absent = [f"{name} ({_EPISODES[name][0]})" for name, found in episodes.items() if not found]
     if episodes["d"] is None:
         episodes["d*"] = find_abandonment(record, entry, window)
     if stop <= start:
         return ax
-    low, high = int(effective[start:stop].min()), int(explored[start:stop].max())
-    pad = max(0.6, 0.035 * (high - low))
+    if relative:
+        counts = counts - counts[:, start : start + 1]
+    low, high = int(counts[:, start:stop].min()), int(counts[:, start:stop].max())
+    unit = max(0.12, 0.01 * (high - low))
     handles: list[Any] = [*ax.get_lines()]
-    for name, episode in episodes.items():
+    for order, (name, episode) in enumerate(episodes.items()):
         meaning, how = _EPISODES[name]
         if episode is None:
             continue
         shown = slice(episode.first - 1, episode.last)
-        bottom = int(effective[shown].min()) - pad
-        top = int(explored[shown].max()) + pad
+        pad = (4 - 0.7 * order) * unit  # edges that meet stay apart
+        bottom = int(counts[:, shown].min()) - pad
+        top = int(counts[:, shown].max()) + pad
         rectangle = patches.Rectangle(
-            (episode.first - 0.3, bottom),
-            episode.last - episode.first + 0.6,
+            (episode.first - 0.25, bottom),
+            episode.last - episode.first + 0.5,
             top - bottom,
             fill=False,
             linewidth=1.1,
@@ -856,7 +896,7 @@ def plot_episodes(
             gid=f"label-{name}",
         )
     ax.set_xlim(start + 0.3, stop + 0.7)
-    ax.set_ylim(low - 2.2 * pad, high + 2.2 * pad + 0.1 * (high - low))
+    ax.set_ylim(low - 8 * unit, high + 18 * unit)
     if absent:
         ax.set_title(
             f"absent from steps {start + 1} to {stop}: " + ",\n".join(absent),
@@ -1049,7 +1089,7 @@ def plot_preferences(
     place = _world_of(world)
     config = _config_of(world, config)
     field = preference_field(world, learner, grid=grid, config=config)
-    ax = _axes(ax, 3.3)
+    ax = _arena_axes(ax, place, bar=colorbar, legend=legend)
     _draw_arena(ax, place)
     _draw_obstacles(ax, place)
     knows = field.times > 0
