@@ -1,0 +1,674 @@
+"""What the plots draw is what the record, the world or the learner says."""
+
+import importlib
+import math
+import subprocess
+import sys
+
+import devlearn
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from devlearn import Event, InvalidValue, Kind, plots
+from devlearn.record import STEP_COLUMNS, provenance_of
+
+matplotlib.use("Agg")
+
+E, X, H = Kind.EXPLORE, Kind.EXPLOIT, Kind.EXHAUSTED
+
+
+@pytest.fixture(scope="module")
+def trial():
+    return devlearn.Trial(devlearn.World.load("paper"), seed=0)
+
+
+@pytest.fixture(scope="module")
+def free(trial):
+    return trial.free_learning(3000)
+
+
+@pytest.fixture(scope="module")
+def paths(free, trial):
+    return trial.path_learning(5, step_limit=600)
+
+
+@pytest.fixture(autouse=True)
+def no_figure_stays_open():
+    yield
+    plt.close("all")
+
+
+@pytest.fixture
+def ax():
+    return plt.figure().add_subplot()
+
+
+def hand_made(steps, *, before=(0, 0), rounds=None):
+    """A record of (kind, event, reduced) a step, with the counts that follow from them."""
+    kind, event, reduced = (np.array(column) for column in zip(*steps))
+    entered = (event == Event.EXTENSION).astype(int)
+    left = (event == Event.ABANDONMENT) + reduced
+    rounds = rounds or [(1, len(steps), False)]
+    columns = {name: np.zeros(len(steps), dtype) for name, dtype in STEP_COLUMNS.items()}
+    columns |= {
+        "kind": kind.astype(np.uint8),
+        "event": event.astype(np.uint8),
+        "reduced": reduced.astype(np.int32),
+        "explored_count": np.cumsum(kind == E) + before[0],
+        "effective_count": np.cumsum(entered - left) + before[1],
+        "rounds": np.array(rounds, dtype=[("round", "i4"), ("steps", "i8"), ("arrived", "?")]),
+    }
+    columns |= {name: np.zeros(len(steps) + len(rounds)) for name in ("x", "y", "heading")}
+    world = devlearn.World.load("empty")
+    provenance = provenance_of(world, devlearn.TrialConfig(), 0, None)
+    return devlearn.Record(columns, provenance)
+
+
+EFFECTIVE = (E, Event.EXTENSION, 0)
+INEFFECTIVE = (E, Event.REJECTION, 0)
+NO_CHANGE = (X, Event.ORIENTATION, 0)
+REDUCTION = (X, Event.ORIENTATION, 1)
+ABANDONMENT = (X, Event.ABANDONMENT, 0)
+RETRY = (H, Event.EXTENSION, 0)
+
+
+def by_gid(ax, gid):
+    found = [artist for artist in ax.get_children() if artist.get_gid() == gid]
+    assert len(found) == 1, (gid, [a.get_gid() for a in ax.get_children() if a.get_gid()])
+    return found[0]
+
+
+def gids(ax):
+    return {artist.get_gid() for artist in ax.get_children()} - {None}
+
+
+def xy(ax, gid):
+    return np.asarray(by_gid(ax, gid).get_xydata())
+
+
+# --- what all have in common ----------------------------------------------------------------------
+
+
+def every_plot(free, paths, trial):
+    return {
+        "world": lambda ax: plots.plot_world(trial.world, ax=ax),
+        "sef": lambda ax: plots.plot_sef(trial.world, ax=ax, points=21),
+        "by kind": lambda ax: plots.plot_trajectory(free, ax=ax),
+        "by time": lambda ax: plots.plot_trajectory(free, ax=ax, by="time"),
+        "path": lambda ax: plots.plot_trajectory(paths, ax=ax, entry=-1, by=None),
+        "counts": lambda ax: plots.plot_counts(free, ax=ax),
+        "episodes": lambda ax: plots.plot_episodes(free, ax=ax),
+        "rounds": lambda ax: plots.plot_rounds(paths, ax=ax, shortest=113, settled=4),
+        "preferences": lambda ax: plots.plot_preferences(trial.world, trial.learner, ax=ax),
+        "distribution": lambda ax: plots.plot_distribution({"a": [1, 2]}, ax=ax, ylabel="steps"),
+    }
+
+
+def test_the_axes_passed_are_returned_and_no_figure_is_made(free, paths, trial):
+    for name, plot in every_plot(free, paths, trial).items():
+        ax = plt.figure().add_subplot()
+        figures = plt.get_fignums()
+        assert plot(ax) is ax, name
+        assert plt.get_fignums() == figures, name
+
+
+def test_without_axes_a_figure_of_a_columns_width_is_made(free, paths, trial):
+    for name, plot in every_plot(free, paths, trial).items():
+        figures = len(plt.get_fignums())
+        ax = plot(None)
+        assert len(plt.get_fignums()) == figures + 1, name
+        assert ax.figure.get_figwidth() == plots.COLUMN, name
+
+
+def test_nothing_drawn_in_a_figure_of_its_own_is_cut_off(free, paths, trial):
+    for name, plot in every_plot(free, paths, trial).items():
+        figure = plot(None).figure
+        figure.canvas.draw()
+        drawn, page = figure.get_tightbbox(), figure.get_size_inches()
+        assert drawn.x0 >= 0 and drawn.y0 >= 0, (name, drawn)
+        assert drawn.x1 <= page[0] and drawn.y1 <= page[1], (name, drawn, page)
+
+
+def test_no_plot_runs_a_trial_or_moves_what_it_reads(free, paths, trial, monkeypatch):
+    def refuse(*_, **__):
+        raise AssertionError("a plot ran a trial")
+
+    for name in ("step", "run", "free_learning", "path_learning", "begin_round", "place"):
+        monkeypatch.setattr(devlearn.Trial, name, refuse)
+    for name in ("choose", "learn", "update"):
+        monkeypatch.setattr(devlearn.Learner, name, refuse)
+    monkeypatch.setattr(devlearn.Robot, "step", refuse)
+    before = {name: getattr(free, name).copy() for name in STEP_COLUMNS}
+    explored = trial.learner.explored_count
+    for plot in every_plot(free, paths, trial).values():
+        plot(None)
+    assert trial.learner.explored_count == explored
+    for name, column in before.items():
+        np.testing.assert_array_equal(getattr(free, name), column)
+
+
+def test_no_setting_of_matplotlib_is_left_changed(free, paths, trial):
+    before = dict(matplotlib.rcParams)
+    for plot in every_plot(free, paths, trial).values():
+        plot(None)
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_maps_have_equal_aspect_and_metres(free, paths, trial):
+    every = every_plot(free, paths, trial)
+    for name in ("world", "sef", "by kind", "by time", "path", "preferences"):
+        ax = every[name](None)
+        assert ax.get_aspect() == 1.0, name
+        assert (ax.get_xlabel(), ax.get_ylabel()) == ("x [m]", "y [m]"), name
+
+
+def test_devlearn_itself_does_not_need_matplotlib(monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    monkeypatch.delitem(sys.modules, "devlearn.plots")
+    with pytest.raises(ImportError, match=r"pip install devlearn\[plots\]"):
+        importlib.import_module("devlearn.plots")
+
+
+def test_importing_devlearn_does_not_import_matplotlib():
+    code = "import devlearn, sys; print('matplotlib' in sys.modules)"
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert shown.stdout.strip() == "False"
+
+
+# --- worlds ---------------------------------------------------------------------------------------
+
+
+def test_a_world_shows_every_obstacle_where_it_is(ax):
+    world = devlearn.World(
+        obstacles=[
+            devlearn.Circle((1.0, 2.0), 0.3),
+            devlearn.Rectangle((3.0, 1.0), (1.0, 0.5), 90.0),
+            devlearn.Polygon([(2.0, 3.0), (3.0, 3.0), (2.5, 4.0)]),
+        ]
+    )
+    plots.plot_world(world, ax=ax)
+    circle = by_gid(ax, "obstacle-0")
+    assert (circle.center, circle.radius) == ((1.0, 2.0), 0.3)
+    corners = by_gid(ax, "obstacle-1").get_xy()[:-1]
+    expected = [(3.25, 0.5), (3.25, 1.5), (2.75, 1.5), (2.75, 0.5)]
+    np.testing.assert_allclose(corners, expected, atol=1e-12)
+    expected = [(2.0, 3.0), (3.0, 3.0), (2.5, 4.0)]
+    np.testing.assert_array_equal(by_gid(ax, "obstacle-2").get_xy()[:-1], expected)
+    walls = by_gid(ax, "walls").get_bbox()
+    assert (walls.x0, walls.y0, walls.x1, walls.y1) == (0, 0, world.width, world.height)
+    np.testing.assert_array_equal(xy(ax, "target"), [world.target])
+
+
+def test_sonar_rays_end_where_the_robot_hears_them(ax):
+    world, body = devlearn.World.load("paper"), devlearn.RobotDef()
+    pose = (1.0, 2.0, 30.0)
+    plots.plot_world(world, ax=ax, robot=body, pose=pose)
+    echoes = devlearn.Robot(world, body).sonar(pose)
+    for i, (angle, echo) in enumerate(zip(body.sonar_angles(), echoes)):
+        ray = xy(ax, f"sonar-{i}")
+        distances = np.hypot(*(ray - pose[:2]).T)
+        np.testing.assert_allclose(distances, [body.radius, body.radius + echo], atol=1e-12)
+        turned = math.degrees(math.atan2(*(ray[1] - ray[0])[::-1])) - (pose[2] + angle)
+        assert math.cos(math.radians(turned)) == pytest.approx(1.0)
+    robot = by_gid(ax, "robot")
+    assert (robot.center, robot.radius) == (pose[:2], body.radius)
+
+
+def test_a_ray_that_meets_nothing_has_no_echo_to_mark(ax):
+    plots.plot_world(devlearn.World(start=(2.5, 2.5, 0)), ax=ax)
+    assert {by_gid(ax, f"sonar-{i}").get_marker() for i in range(5)} == {"None"}
+
+
+def test_sonars_can_be_left_out(ax):
+    plots.plot_world(devlearn.World(), ax=ax, sonar=False)
+    assert not any(gid.startswith("sonar") for gid in gids(ax))
+
+
+@pytest.mark.parametrize("name", devlearn.worlds())
+def test_every_shipped_world_can_be_drawn(name):
+    ax = plots.plot_world(devlearn.World.load(name))
+    ax.figure.canvas.draw()
+
+
+# --- SEF ------------------------------------------------------------------------------------------
+
+
+def test_the_map_shows_sef_at_each_point(ax):
+    world, sef = devlearn.World.load("paper"), devlearn.StateEvaluation(a1=10.0)
+    plots.plot_sef(world, ax=ax, evaluation=sef, points=11)
+    values = by_gid(ax, "sef").get_array()
+    assert values.shape == (11, 11)
+    for row, column in [(0, 0), (3, 8), (10, 2)]:
+        x, y = 0.5 * column, 0.5 * row
+        goal = math.hypot(x - world.target[0], y - world.target[1])
+        assert values[row, column] == pytest.approx(sef(goal, world.clearance(x, y)))
+
+
+def test_walls_count_where_asked(ax):
+    world = devlearn.World()
+    plots.plot_sef(world, ax=ax, points=11, walls_count=True)
+    values = by_gid(ax, "sef").get_array()
+    expected = devlearn.StateEvaluation()(math.hypot(*world.target), 0.0)
+    assert values[0, 0] == pytest.approx(expected)
+
+
+def test_the_scale_stops_at_the_floor_and_says_so():
+    ax = plots.plot_sef(devlearn.World.load("paper"), points=101, floor=3.0)
+    assert by_gid(ax, "sef").get_clim()[0] == 3.0
+    assert by_gid(ax, "sef").colorbar.extend == "min"
+    ax = plots.plot_sef_surface(devlearn.World.load("paper"), points=101, floor=3.0)
+    assert "cut off at 3" in ax.get_zlabel()
+    assert ax.get_zlim()[0] <= 3.0
+
+
+def test_the_surface_needs_three_dimensions(ax):
+    with pytest.raises(InvalidValue, match="3d"):
+        plots.plot_sef_surface(devlearn.World(), ax=ax)
+    solid = plt.figure().add_subplot(projection="3d")
+    assert plots.plot_sef(devlearn.World(), ax=solid, kind="surface") is solid
+    assert (solid.get_xlabel(), solid.get_ylabel()) == ("x [m]", "y [m]")
+
+
+def test_a_map_of_an_unknown_kind_is_refused(ax):
+    with pytest.raises(InvalidValue, match="kind"):
+        plots.plot_sef(devlearn.World(), ax=ax, kind="contour")
+
+
+# --- paths ----------------------------------------------------------------------------------------
+
+
+def test_a_path_is_the_records(paths, ax):
+    plots.plot_trajectory(paths, ax=ax, entry=2, by=None)
+    np.testing.assert_array_equal(xy(ax, "path"), paths.path(2)[:, :2])
+    assert by_gid(ax, "robot").center == tuple(paths.path(2)[0, :2])
+
+
+def test_each_kind_of_step_is_drawn_from_where_it_was_chosen(free, ax):
+    plots.plot_trajectory(free, ax=ax)
+    path = free.path(0)[:, :2]
+    for name, kind in (("explore", E), ("exploit", X), ("exhausted", H)):
+        drawn = xy(ax, f"path-{name}").reshape(-1, 3, 2)
+        chosen = free.kind == kind
+        assert chosen.any()
+        np.testing.assert_array_equal(drawn[:, 0], path[:-1][chosen])
+        np.testing.assert_array_equal(drawn[:, 1], path[1:][chosen])
+        assert np.isnan(drawn[:, 2]).all()
+
+
+def test_the_legend_gives_the_number_of_steps_of_each_kind(free, ax):
+    plots.plot_trajectory(free, ax=ax)
+    shown = {text.get_text().replace("\u2009", "") for text in ax.get_legend().get_texts()}
+    counts = {name: np.count_nonzero(free.kind == kind) for name, kind in Kind.__members__.items()}
+    assert shown == {f"{name.lower()} ({count})" for name, count in counts.items() if count}
+
+
+def test_kinds_differ_in_more_than_colour(free, ax):
+    plots.plot_trajectory(free, ax=ax)
+    lines = [by_gid(ax, f"path-{name}") for name in ("explore", "exploit", "exhausted")]
+    assert len({line.get_marker() for line in lines}) == 3
+
+
+def test_time_colours_each_step_by_its_number(paths, ax):
+    plots.plot_trajectory(paths, ax=ax, entry=1, by="time")
+    lines, path = by_gid(ax, "path"), paths.path(1)[:, :2]
+    np.testing.assert_array_equal(lines.get_array(), np.arange(1, len(path)))
+    np.testing.assert_array_equal(np.array(lines.get_segments())[:, 1], path[1:])
+
+
+def test_the_title_tells_round_steps_and_failure():
+    steps = [NO_CHANGE] * 5
+    record = hand_made(steps, rounds=[(7, 2, True), (8, 3, False)])
+    assert plots.plot_trajectory(record, entry=0).get_title() == "round 7: 2 steps"
+    assert plots.plot_trajectory(record, entry=1).get_title() == "round 8: 3 steps, not arrived"
+    assert plots.plot_trajectory(record, entry=-1, title=False).get_title() == ""
+
+
+def test_a_path_can_be_added_to_what_is_drawn(paths, ax):
+    plots.plot_trajectory(paths, ax=ax, entry=0, by=None)
+    lines = len(ax.lines)
+    plots.plot_trajectory(paths, ax=ax, entry=1, by=None, world=False)
+    assert len(ax.lines) == lines + 1
+
+
+def test_a_round_that_is_not_there_is_refused(paths, ax):
+    with pytest.raises(InvalidValue, match="round entry"):
+        plots.plot_trajectory(paths, ax=ax, entry=99)
+    with pytest.raises(InvalidValue, match="by"):
+        plots.plot_trajectory(paths, ax=ax, by="speed")
+
+
+# --- counts ---------------------------------------------------------------------------------------
+
+
+def test_a_motion_explored_at_step_24_shows_at_step_25(ax):
+    record = hand_made([NO_CHANGE] * 23 + [EFFECTIVE] + [NO_CHANGE] * 6)
+    plots.plot_counts(record, ax=ax, steps=(0, 30))
+    for gid in ("explored", "effective"):
+        steps, values = xy(ax, gid).T
+        np.testing.assert_array_equal(steps, np.arange(1, 31))
+        np.testing.assert_array_equal(values, [0] * 24 + [1] * 6)
+
+
+def test_counts_are_the_records_one_step_later(free, ax):
+    plots.plot_counts(free, ax=ax)
+    for gid, column in (
+        ("explored", free.explored_count),
+        ("effective", free.effective_count),
+    ):
+        steps, values = xy(ax, gid).T
+        np.testing.assert_array_equal(steps, np.arange(1, len(free) + 1))
+        np.testing.assert_array_equal(values, [0, *column[:-1]])
+
+
+def test_counts_of_a_later_record_begin_with_what_was_known(free, paths):
+    explored, effective = plots.counts_before(paths, 0)
+    assert (explored[0], effective[0]) == (free.explored_count[-1], free.effective_count[-1])
+    explored, effective = plots.counts_before(paths, 1)
+    last = paths.steps_of(0).stop - 1
+    assert explored[0] == paths.explored_count[last]
+    assert effective[0] == paths.effective_count[last]
+    assert len(explored) == paths.rounds["steps"][1] + 1
+
+
+@pytest.mark.parametrize(
+    ("first", "known"),
+    [
+        (EFFECTIVE, (12, 7)),
+        (INEFFECTIVE, (12, 7)),
+        (NO_CHANGE, (12, 7)),
+        ((X, Event.ORIENTATION, 3), (12, 7)),
+        (ABANDONMENT, (12, 7)),
+        (RETRY, (12, 7)),
+    ],
+)
+def test_counts_before_a_records_first_step_follow_from_what_it_did(first, known):
+    record = hand_made([first, NO_CHANGE], before=known)
+    explored, effective = plots.counts_before(record)
+    assert (explored[0], effective[0]) == known
+
+
+def test_counts_of_a_window_are_those_steps(free, ax):
+    plots.plot_counts(free, ax=ax, steps=(100, 130))
+    steps, values = xy(ax, "explored").T
+    np.testing.assert_array_equal(steps, np.arange(101, 131))
+    np.testing.assert_array_equal(values, free.explored_count[99:129])
+
+
+def test_relative_counts_begin_at_zero_and_tell_from_where(free, ax):
+    plots.plot_counts(free, ax=ax, steps=(100, 130), relative=True)
+    values = xy(ax, "effective")[:, 1]
+    np.testing.assert_array_equal(values, free.effective_count[99:129] - free.effective_count[99])
+    shown = ax.get_legend().get_texts()[1].get_text()
+    assert shown.endswith(f"\u2212 {free.effective_count[99]}")
+    assert ax.get_ylabel() == "mappings since step 101"
+
+
+# --- episodes -------------------------------------------------------------------------------------
+
+#  steps          1-2              3            4-6                7-11
+ALL_FOUR = [INEFFECTIVE] * 2 + [EFFECTIVE] + [NO_CHANGE] * 3 + [INEFFECTIVE] * 5
+#  steps          12            13            14-17           18 ...
+ALL_FOUR += [EFFECTIVE] + [ABANDONMENT] + [NO_CHANGE] * 4 + [REDUCTION] + [RETRY] * 12
+
+
+def test_the_papers_four_kinds_are_found_where_they_are():
+    assert plots.find_episodes(hand_made(ALL_FOUR)) == {
+        "a": (3, 4),
+        "b": (7, 12),
+        "c": (14, 18),
+        "d": (18, 19),
+    }
+
+
+def test_an_episode_is_what_the_counts_show():
+    record = hand_made(ALL_FOUR)
+    explored, effective = plots.counts_before(record)
+    change = {
+        name: (
+            int(explored[episode.last - 1] - explored[episode.first - 1]),
+            int(effective[episode.last - 1] - effective[episode.first - 1]),
+        )
+        for name, episode in plots.find_episodes(record).items()
+    }
+    assert change == {"a": (1, 1), "b": (5, 0), "c": (0, 0), "d": (0, -1)}
+
+
+def test_an_abandonment_is_no_reduction():
+    record = hand_made([EFFECTIVE, ABANDONMENT, NO_CHANGE])
+    assert plots.find_episodes(record)["d"] is None
+    assert plots.find_abandonment(record) == (2, 3)
+    assert plots.find_abandonment(hand_made([EFFECTIVE, REDUCTION, NO_CHANGE])) is None
+
+
+def test_a_retry_is_neither_exploration_nor_exploitation():
+    found = plots.find_episodes(hand_made([RETRY] * 10))
+    assert set(found.values()) == {None}
+
+
+def test_one_step_is_no_run():
+    record = hand_made([INEFFECTIVE, NO_CHANGE, INEFFECTIVE, NO_CHANGE, EFFECTIVE, RETRY])
+    assert plots.find_episodes(record) == {"a": (5, 6), "b": None, "c": None, "d": None}
+
+
+def test_of_equal_runs_the_first_is_taken():
+    record = hand_made([INEFFECTIVE] * 3 + [NO_CHANGE] + [INEFFECTIVE] * 3 + [RETRY])
+    assert plots.find_episodes(record)["b"] == (1, 4)
+
+
+def test_an_episode_ends_within_its_window():
+    record = hand_made([NO_CHANGE] * 29 + [EFFECTIVE] + [NO_CHANGE] * 10)
+    # The outcome of step 30 shows at step 31.
+    assert plots.find_episodes(record)["a"] is None
+    assert plots.find_episodes(record, window=(0, 31))["a"] == (30, 31)
+    assert plots.find_episodes(record)["c"] == (1, 30)
+    assert plots.find_episodes(record, window=(35, 99))["c"] == (36, 40)
+
+
+def test_episodes_are_those_of_the_round_asked_for():
+    steps = [INEFFECTIVE] * 4 + [NO_CHANGE] * 2 + [REDUCTION] + [NO_CHANGE]
+    record = hand_made(steps, before=(9, 9), rounds=[(1, 4, True), (2, 4, True)])
+    assert plots.find_episodes(record, entry=0)["d"] is None
+    assert plots.find_episodes(record, entry=1) == {"a": None, "b": None, "c": (1, 3), "d": (3, 4)}
+
+
+def test_the_first_window_is_found_if_it_has_all_kinds():
+    assert plots.find_window(hand_made(ALL_FOUR)) == (0, 30)
+
+
+def test_a_window_shows_the_kind_it_was_asked_for():
+    record = hand_made([INEFFECTIVE] * 200 + [EFFECTIVE] + [INEFFECTIVE] * 200)
+    assert plots.find_episodes(record)["a"] is None
+    start, stop = plots.find_window(record, "a")
+    assert stop - start == 30
+    assert plots.find_episodes(record, window=(start, stop))["a"] == (201, 202)
+    assert abs((start + stop) / 2 - 201) <= 1  # in the middle
+    assert plots.find_window(record, "d") is None
+
+
+def test_windows_found_have_every_kind_asked_for(free):
+    for kinds in ("a", "b", "c", "ab", "bc", "abc"):
+        window = plots.find_window(free, kinds)
+        found = plots.find_episodes(free, window=window)
+        assert all(found[kind] for kind in kinds), kinds
+
+
+def test_the_round_that_has_the_kind_is_found():
+    steps = [NO_CHANGE] * 6 + [REDUCTION] + [NO_CHANGE] * 3
+    record = hand_made(steps, before=(9, 9), rounds=[(3, 5, True), (4, 5, True)])
+    entry, window = plots.find_entry_and_window(record, "d")
+    assert (entry, window) == (1, (0, 5))
+    assert plots.find_entry_and_window(record, "a") is None
+
+
+def test_rectangles_stand_around_their_episodes(ax):
+    record = hand_made(ALL_FOUR)
+    plots.plot_episodes(record, ax=ax)
+    counts = np.stack(plots.counts_before(record))
+    for name, episode in plots.find_episodes(record).items():
+        box = by_gid(ax, f"episode-{name}").get_bbox()
+        inside = counts[:, episode.first - 1 : episode.last]
+        assert episode.first - 1 < box.x0 < episode.first
+        assert episode.last < box.x1 < episode.last + 1
+        assert box.y0 < inside.min() and inside.max() < box.y1
+        assert by_gid(ax, f"label-{name}").get_text() == name
+    assert ax.get_title() == ""
+    assert "episode-d*" not in gids(ax)
+
+
+def test_the_picture_says_which_kinds_are_absent(ax):
+    record = hand_made([INEFFECTIVE, EFFECTIVE, ABANDONMENT] + [RETRY] * 30)
+    plots.plot_episodes(record, ax=ax)
+    assert {"episode-a", "episode-d*"} <= gids(ax)
+    assert not {"episode-b", "episode-c", "episode-d"} & gids(ax)
+    title = ax.get_title().replace("\n", " ")
+    assert title.startswith("absent from steps 1 to 30: b (")
+    assert "c (" in title and "d (" in title and "a (" not in title
+
+
+def test_a_later_window_is_drawn_from_zero_and_its_rectangles_too(ax):
+    record = hand_made([EFFECTIVE] * 100 + [NO_CHANGE] * 20 + [REDUCTION] + [NO_CHANGE] * 20)
+    window = plots.find_window(record, "d")
+    plots.plot_episodes(record, ax=ax, window=window)
+    assert xy(ax, "explored")[0].tolist() == [window[0] + 1, 0]
+    assert xy(ax, "effective")[-1].tolist() == [window[1], -1]
+    box = by_gid(ax, "episode-d").get_bbox()
+    assert box.y0 < -1 and 0 < box.y1 < 1
+
+
+@pytest.mark.parametrize("window", [(-1, 30), (5, 5), (30, 0)])
+def test_a_window_that_is_none_is_refused(window):
+    record = hand_made([NO_CHANGE] * 40)
+    for call in (plots.find_episodes, plots.plot_episodes):
+        with pytest.raises(InvalidValue, match="window"):
+            call(record, window=window)
+    with pytest.raises(InvalidValue, match="kinds"):
+        plots.find_window(record, "e")
+
+
+# --- rounds ---------------------------------------------------------------------------------------
+
+
+def test_rounds_are_the_records_and_failed_ones_are_crosses(ax):
+    rounds = [(3, 10, True), (4, 20, False), (5, 8, True), (6, 8, True)]
+    record = hand_made([NO_CHANGE] * 46, rounds=rounds)
+    plots.plot_rounds(record, ax=ax, shortest=6, settled=5)
+    np.testing.assert_array_equal(xy(ax, "arrived"), [(3, 10), (5, 8), (6, 8)])
+    np.testing.assert_array_equal(xy(ax, "failed"), [(4, 20)])
+    assert by_gid(ax, "failed").get_marker() == "x"
+    assert set(by_gid(ax, "shortest").get_ydata()) == {6}
+    assert set(by_gid(ax, "settled").get_xdata()) == {5}
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert "settled from round 5: 8" in labels and "shortest possible: 6" in labels
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("round", "steps of the round")
+
+
+def test_a_span_of_more_than_ten_is_drawn_on_a_logarithmic_axis():
+    record = hand_made([NO_CHANGE] * 22, rounds=[(1, 20, True), (2, 2, True)])
+    assert plots.plot_rounds(record).get_yscale() == "linear"
+    assert plots.plot_rounds(record, shortest=1).get_yscale() == "log"
+    assert plots.plot_rounds(record, log=True).get_yscale() == "log"
+
+
+# --- preferences ----------------------------------------------------------------------------------
+
+
+def learned(*outcomes):
+    """A learner, a grid of 0.25 m, and for each (pose, motion, smf) an update."""
+    grid = devlearn.SituationGrid()
+    learner = devlearn.Learner(seed=0)
+    for pose, motion, smf in outcomes:
+        learner.update(grid.situation(*pose), motion, smf)
+    return learner, grid
+
+
+def test_an_arrow_points_where_the_preferred_motion_leads():
+    # Heading 90 degrees, motion 1 turns by -30.
+    learner, grid = learned(((0.3, 0.3, 90.0), 1, 1.0))
+    field = plots.preference_field(devlearn.World(), learner, grid=grid)
+    assert (field.x.item(), field.y.item()) == (0.375, 0.375)
+    np.testing.assert_allclose((field.u.item(), field.v.item()), (0.5, math.sqrt(0.75)), atol=1e-12)
+    assert field.times.item() == 1
+
+
+def test_the_motion_of_the_highest_orientation_is_the_preferred_one():
+    learner, grid = learned(
+        ((0.3, 0.3, 0.0), 0, 1.0), ((0.3, 0.3, 0.0), 4, 1.0), ((0.3, 0.3, 0.0), 4, 5.0)
+    )
+    field = plots.preference_field(devlearn.World(), learner, grid=grid)
+    assert math.degrees(math.atan2(field.v.item(), field.u.item())) == pytest.approx(60.0)
+
+
+def test_headings_that_disagree_shorten_the_arrow():
+    # Straight on, to the east and to the north, equally often; then to the west.
+    east, north = ((0.3, 0.3, 0.0), 2, 1.0), ((0.3, 0.3, 90.0), 2, 1.0)
+    learner, grid = learned(east, north)
+    field = plots.preference_field(devlearn.World(), learner, grid=grid)
+    np.testing.assert_allclose((field.u.item(), field.v.item()), (0.5, 0.5), atol=1e-12)
+    learner, grid = learned(east, ((0.3, 0.3, 180.0), 2, 1.0))
+    field = plots.preference_field(devlearn.World(), learner, grid=grid)
+    np.testing.assert_allclose((field.u.item(), field.v.item()), (0, 0), atol=1e-12)
+
+
+def test_what_was_learned_more_often_weighs_more():
+    east, north = ((0.3, 0.3, 0.0), 2, 1.0), ((0.3, 0.3, 90.0), 2, 1.0)
+    learner, grid = learned(east, north, north, north)
+    field = plots.preference_field(devlearn.World(), learner, grid=grid)
+    np.testing.assert_allclose((field.u.item(), field.v.item()), (0.25, 0.75), atol=1e-12)
+    assert field.times.item() == 4
+
+
+def test_ineffective_mappings_have_no_arrow(ax):
+    learner, grid = learned(((0.3, 0.3, 0.0), 2, 1.0), ((4.0, 4.0, 0.0), 2, -1.0))
+    plots.plot_preferences(devlearn.World(), learner, grid=grid, ax=ax)
+    np.testing.assert_array_equal(by_gid(ax, "preferences").get_offsets(), [(0.375, 0.375)])
+    np.testing.assert_array_equal(xy(ax, "nothing-effective"), [(4.125, 4.125)])
+
+
+def test_the_arrows_are_those_of_the_field_and_stay_in_their_cells(trial, free, ax):
+    field = plots.preference_field(trial.world, trial.learner)
+    plots.plot_preferences(free, trial.learner, ax=ax)
+    arrows, knows = by_gid(ax, "preferences"), field.times > 0
+    drawn = np.column_stack([arrows.U, arrows.V])
+    expected = np.column_stack([field.u, field.v])[knows]
+    np.testing.assert_allclose(drawn, 0.9 * 0.25 * expected)
+    np.testing.assert_array_equal(arrows.get_array(), field.times[knows])
+    assert np.hypot(*drawn.T).max() <= 0.25
+
+
+def test_the_grid_is_the_trials_where_none_is_given():
+    world = devlearn.World.load("office")
+    trial = devlearn.Trial(world, seed=0)
+    trial.run(500)
+    without = plots.preference_field(world, trial.learner, config=trial.config)
+    given = plots.preference_field(world, trial.learner, grid=trial.grid, config=trial.config)
+    for a, b in zip(without, given):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_a_learner_of_other_situations_is_refused(ax):
+    learner = devlearn.Learner(seed=0)
+    learner.update(10**12, 0, 1.0)
+    with pytest.raises(InvalidValue, match="situation"):
+        plots.plot_preferences(devlearn.World(), learner, ax=ax)
+
+
+def test_a_learner_without_experience_is_drawn_as_an_empty_field(ax):
+    plots.plot_preferences(devlearn.World(), devlearn.Learner(seed=0), ax=ax)
+    assert len(by_gid(ax, "preferences").get_offsets()) == 0
+    ax.figure.canvas.draw()
+
+
+# --- distributions --------------------------------------------------------------------------------
+
+
+def test_every_finite_value_is_a_point_and_the_others_are_counted(ax):
+    plots.plot_distribution(
+        {"paper": [3.0, 1.0, 2.0], "step5": [5.0, np.nan, np.inf]}, ax=ax, ylabel="steps", bound=4
+    )
+    assert xy(ax, "sample-1")[:, 1].tolist() == [1, 2, 3]
+    assert xy(ax, "sample-2")[:, 1].tolist() == [5]
+    labels = [label.get_text() for label in ax.get_xticklabels()]
+    assert labels == ["paper", "step5\n(2 without value)"]
+    assert set(by_gid(ax, "bound").get_ydata()) == {4}
+    assert ax.get_ylabel() == "steps"
