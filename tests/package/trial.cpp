@@ -1,8 +1,8 @@
 // A program on the simulation: the whole loop in a world built in code.
+#include "devlearn/trial.hpp"
+
 #include <cstdio>
 #include <cstdlib>
-
-#include "devlearn/trial.hpp"
 
 int main() {
   devlearn::WorldDef def;
