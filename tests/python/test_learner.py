@@ -8,7 +8,7 @@ import devlearn
 import numpy as np
 import pytest
 from devlearn import Event, Kind, Learner, LearnerConfig
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 GOLDEN = pathlib.Path(__file__).parents[1] / "golden"
@@ -27,6 +27,11 @@ configs = st.builds(
     on_negative=st.sampled_from(["abandon", "weaken"]),
     when_exhausted=st.sampled_from(["retry", "wander"]),
 )
+
+
+def for_all(*strategies):
+    """Properties with the same examples in every run, however slow the machine."""
+    return lambda test: settings(deadline=None, derandomize=True)(given(*strategies)(test))
 
 
 def lists(learner, situation):
@@ -97,12 +102,17 @@ def test_the_defaults_are_the_papers():
     assert Learner().seed == 0
 
 
-@given(configs)
-def test_a_configuration_survives_dict_and_pickle_to_the_bit(config):
+@for_all(configs)
+def test_a_configuration_survives_its_dict_to_the_bit(config):
     assert LearnerConfig.from_dict(config.to_dict()) == config
     assert LearnerConfig(**config.to_dict()) == config
-    assert pickle.loads(pickle.dumps(config)) == config
     assert Learner(config).config == config
+
+
+@for_all(configs)
+def test_a_configuration_survives_pickling_and_copying_to_the_bit(config):
+    assert pickle.loads(pickle.dumps(config)) == config
+    assert copy.deepcopy(config) == config
 
 
 def test_a_dict_may_leave_out_fields_but_not_invent_them():
@@ -176,7 +186,7 @@ def test_kinds_and_events_have_the_numbers_of_records():
     ]
 
 
-@given(configs, seeds, st.lists(st.tuples(st.integers(0, 3), finite), max_size=60))
+@for_all(configs, seeds, st.lists(st.tuples(st.integers(0, 3), finite), max_size=60))
 def test_the_proofs_hold_whatever_is_experienced(config, seed, experience):
     learner = Learner(config, seed)
     for situation, smf in experience:
@@ -193,7 +203,7 @@ def test_the_proofs_hold_whatever_is_experienced(config, seed, experience):
     assert learner.explored_count == sum(len(e) + len(i) for e, i, *_ in everywhere)
 
 
-@given(situations)
+@for_all(situations)
 def test_looking_at_a_situation_creates_nothing(situation):
     learner = Learner()
     before = state(learner)
@@ -203,7 +213,7 @@ def test_looking_at_a_situation_creates_nothing(situation):
     assert learner.situations().tolist() == [situation]
 
 
-@given(st.integers(0, 1000))
+@for_all(st.integers(0, 1000))
 def test_what_is_shown_of_a_situation_is_a_copy(seed):
     learner = Learner(seed=seed)
     history(learner, 30)
@@ -232,7 +242,7 @@ def test_numpys_whole_numbers_and_floats_are_as_good_as_pythons(integer):
     assert state(ours) == state(theirs)
 
 
-@given(situations, st.integers(0, 4), finite)
+@for_all(situations, st.integers(0, 4), finite)
 def test_an_update_leaves_a_waiting_choice_waiting(situation, motion, smf):
     learner = Learner()
     choice = learner.choose(3)
@@ -265,8 +275,6 @@ def test_what_is_refused_changes_nothing(waiting):
         refused("smf", str(bad), learner.update, 0, 0, bad)
         if waiting:
             refused("smf", str(bad), learner.learn, bad)
-    for bad in (-1, 2**32 - 1, 10**30):
-        refused("situations", str(bad), learner.reserve, bad)
     if waiting:
         second = "a second choice before the first met its outcome"
         refused("Learner.choose", second, learner.choose, 0)
@@ -280,6 +288,11 @@ def test_what_is_refused_changes_nothing(waiting):
         learner.learn(1.0)
         twin.learn(1.0)
     assert history(learner, 300) == history(twin, 300)
+
+
+@pytest.mark.parametrize("bad", [-1, 2**32 - 1, 10**30])
+def test_a_reservation_out_of_its_range_is_refused(bad):
+    refused("situations", str(bad), Learner().reserve, bad)
 
 
 @pytest.mark.parametrize("bad", [-1, 2**64, 10**30])
@@ -300,7 +313,7 @@ def test_what_is_no_whole_number_is_a_type_error(nonsense):
 # --- same seed, same history ---------------------------------------------------------------------
 
 
-@given(configs, seeds)
+@for_all(configs, seeds)
 def test_copies_are_independent_and_go_on_alike(config, seed):
     original = Learner(config, seed)
     history(original, 40, seed=1)
@@ -316,7 +329,7 @@ def test_copies_are_independent_and_go_on_alike(config, seed):
         assert state(copied) == state(twin)
 
 
-@given(configs, seeds)
+@for_all(configs, seeds)
 def test_the_same_seed_gives_the_same_history(config, seed):
     ours, theirs = Learner(config, seed), Learner(config, seed)
     theirs.reserve(5000)
