@@ -23,6 +23,7 @@ __all__: list[str] = [
     "Outcome",
     "Polygon",
     "Random",
+    "RandomAgent",
     "Rectangle",
     "Robot",
     "RobotDef",
@@ -35,6 +36,7 @@ __all__: list[str] = [
     "World",
     "box2d_version",
     "commit",
+    "shortest_path",
 ]
 
 class Random:
@@ -1003,6 +1005,12 @@ class Outcome:
         SMF as learned from: min(SMF, -1) for a collision.
         """
 
+class RandomAgent:
+    """
+    Uniformly random motions: what learning is measured against.
+    """
+    def __init__(self, seed: typing.SupportsIndex = 0) -> None: ...
+
 class Trial:
     """
     The closed loop: world -> sense -> situation -> choice -> motion -> evaluation ->
@@ -1110,6 +1118,15 @@ class Trial:
         """
         The World.
         """
+
+def shortest_path(
+    robot: Robot,
+    start: collections.abc.Sequence[float] | None = None,
+    goal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+) -> numpy.ndarray:
+    """
+    The shortest way, in steps, that the robot's own motions allow from `start` (None: the world's) to within goal_radius of the target, touching nothing: poses (steps + 1, 3) [m, m, degrees]; empty where there is no way. What a learnt path is measured against. Found by A* over poses, those in one cell of a quarter step counting as one. Raises InvalidValue.
+    """
 
 __version__: str
 box2d_version: str
