@@ -1,0 +1,70 @@
+"""Draws the pictures in this folder: .venv/bin/python docs/images/draw.py"""
+
+import io
+from pathlib import Path
+
+import devlearn
+import matplotlib
+import matplotlib.pyplot as plt
+from devlearn import plots
+from PIL import Image
+
+HERE = Path(__file__).resolve().parent
+
+
+def save(figure, name, dpi):
+    """As a PNG of 256 colours, a third as large, without the version of matplotlib."""
+    drawn = io.BytesIO()
+    figure.savefig(drawn, dpi=dpi)
+    plt.close(figure)
+    image = (
+        Image.open(drawn)
+        .convert("RGB")
+        .quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    )
+    image.save(HERE / name, optimize=True)
+    print(f"{name}: {(HERE / name).stat().st_size / 1000:.0f} kB")
+
+
+def draw_worlds():
+    """Every world that ships, for docs/worlds.md."""
+    for name in devlearn.worlds():
+        save(plots.plot_world(devlearn.World.load(name)).figure, f"world_{name}.png", 110)
+
+
+def draw_readme():
+    """From wandering to a path of its own: the head of the README."""
+    trial = devlearn.Trial(devlearn.World.load("paper"), seed=0)
+    first = trial.free_learning(10_000)
+    trial.free_learning(10_000)
+    paths = trial.path_learning(600)
+
+    figure = plt.figure(figsize=(8.0, 2.95))
+    axes = [
+        figure.add_axes((left / 8.0, 0.37 / 2.95, 2.35 / 8.0, 2.35 / 2.95))
+        for left in (0.37, 2.98, 5.59)
+    ]
+    plots.plot_trajectory(first, ax=axes[0], legend=False)
+    plots.plot_preferences(trial.world, trial.learner, ax=axes[1], colorbar=False, legend=False)
+    plots.plot_sef(trial.world, ax=axes[2], colorbar=False)
+    plots.plot_trajectory(paths, ax=axes[2], entry=-1, by=None, color=plots.BLACK, world=False)
+    axes[2].lines[-1].set_linewidth(2.0)
+    number, steps, _ = paths.rounds[-1]
+    titles = (
+        "round 1: exploring",
+        "what it learned to prefer",
+        f"round {number}: {steps} steps to the target",
+    )
+    for ax, title in zip(axes, titles):
+        ax.set_title(title)
+    for ax in axes[1:]:
+        ax.set_ylabel("")
+        ax.set_yticks([])
+    save(figure, "readme.png", 150)
+
+
+if __name__ == "__main__":
+    matplotlib.use("Agg")
+    with matplotlib.rc_context({**plots.STYLE, "axes.titlesize": 9}):
+        draw_worlds()
+        draw_readme()
