@@ -96,7 +96,7 @@ INK = "#222222"
 OBSTACLE = "#A9CBE6"  # the paper's blue, light enough to draw over
 
 COLUMN = 3.5  # a journal column [inches]
-STYLE: dict[str, Any] = {
+STYLE: Any = {  # matplotlib's own type lists every setting by name
     "font.size": 8,
     "axes.titlesize": 8,
     "axes.labelsize": 8,
@@ -122,7 +122,7 @@ _F = TypeVar("_F", bound=Callable[..., Any])
 def _styled(plot: _F) -> _F:
     @functools.wraps(plot)
     def wrapper(*args: Any, **kwargs: Any) -> Any:
-        with mpl.rc_context(cast(Any, STYLE)):
+        with mpl.rc_context(STYLE):
             return plot(*args, **kwargs)
 
     return cast(_F, wrapper)
