@@ -118,7 +118,9 @@ def aggregate(values: Sequence[Any], how: str) -> Figure:
         shares = [hit / of for hit, of in present if of]
         return _spread(hits / cases if cases else math.nan, shares)
     # A run may hold several values: one for each new start.
-    numbers = [float(v) for value in present for v in (value if isinstance(value, list) else [value])]
+    numbers = [
+        float(v) for value in present for v in (value if isinstance(value, list) else [value])
+    ]
     if not numbers:
         return Figure(math.nan)
     reduce = {"median": np.median, "mean": np.mean, "max": np.max}[how]

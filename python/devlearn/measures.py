@@ -125,4 +125,3 @@ def computing_waste(records: Sequence[Record]) -> float:
     event = np.concatenate([record.event for record in records])
     updates = np.isin(event, [Event.EXTENSION, Event.ORIENTATION, Event.ABANDONMENT])
     return share(smf[updates] < 0)
-

@@ -1,0 +1,261 @@
+"""The command line: ``devlearn reproduce`` and ``devlearn run``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ._core import Trial, TrialConfig
+    from .record import Record
+
+_RUN_EPILOG = """\
+examples:
+  devlearn run paper
+  devlearn run office --seed 7 --rounds 200 --output out/office
+  devlearn run my_world.json --preset step5 --set learner.sigma=0.5 --set walls_count=true
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; returns its exit code: 0, 1 for a refusal, 130 after Ctrl-C."""
+    options = _parser().parse_args(arguments)
+    # Not before: --help should not wait for them.
+    from .errors import InvalidValue
+
+    try:
+        return int(options.verb(options))
+    except InvalidValue as error:
+        print(f"devlearn: {error}", file=sys.stderr)
+        return 1
+    except ImportError as error:
+        if "matplotlib" not in str(error):
+            raise
+        print(f"devlearn: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("devlearn: stopped", file=sys.stderr)
+        return 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="devlearn",
+        description="Sensorimotor developmental learning from orientation and curiosity "
+        "(Zhang et al., 2020).",
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and leave")
+    verbs = parser.add_subparsers(required=True, metavar="VERB")
+
+    reproduce = verbs.add_parser(
+        "reproduce",
+        help="run all of the paper's section VI and write a report",
+        description="Runs the paper's section VI over many seeds, for both readings of the method, "
+        "and writes report.html, the figures, Table 1 and all numbers. Stopped with Ctrl-C, it goes "
+        "on from there when called again.",
+    )
+    reproduce.add_argument(
+        "--figure", type=int, metavar="N", help="draw only this figure of the paper (0: the extras)"
+    )
+    reproduce.add_argument(
+        "--seeds", type=int, default=30, metavar="N", help="how many seeds (default: %(default)s)"
+    )
+    reproduce.add_argument(
+        "--workers", type=int, metavar="N", help="how many processes (default: one a core)"
+    )
+    reproduce.add_argument(
+        "--output", default="out/reproduce", metavar="DIR", help="default: %(default)s"
+    )
+    reproduce.set_defaults(verb=_reproduce)
+
+    run = verbs.add_parser(
+        "run",
+        help="run one experiment in any world",
+        description="One experiment: two rounds of free learning, then path learning by rounds until "
+        "the target is reached. Prints what came of it and writes the records, a table of the rounds "
+        "and, with matplotlib, a picture.",
+        epilog=_RUN_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    run.add_argument("world", help=f"a world file, or one that ships: {', '.join(_shipped())}")
+    run.add_argument("--preset", default="paper", help="paper (default) or step5")
+    run.add_argument("--config", metavar="FILE", help="a TrialConfig as JSON, instead of a preset")
+    run.add_argument(
+        "--set", action="append", default=[], metavar="FIELD=VALUE", help="change one field of it"
+    )
+    run.add_argument("--seed", type=int, default=1, metavar="N", help="default: %(default)s")
+    run.add_argument(
+        "--steps", type=int, default=10_000, metavar="N",
+        help="steps of each of the two rounds of free learning (default: %(default)s)",
+    )  # fmt: skip
+    run.add_argument(
+        "--rounds", type=int, default=100, metavar="N",
+        help="rounds of path learning (default: %(default)s)",
+    )  # fmt: skip
+    run.add_argument(
+        "--step-limit", type=int, default=10_000, metavar="N",
+        help="steps after which a round of path learning has failed (default: %(default)s)",
+    )  # fmt: skip
+    run.add_argument("--echoes", action="store_true", help="record the sonars' echoes, too")
+    run.add_argument("--csv", action="store_true", help="write the records as CSV, too")
+    run.add_argument("--output", default="out/run", metavar="DIR", help="default: %(default)s")
+    run.set_defaults(verb=_run)
+    return parser
+
+
+class _Version(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from ._core import __version__, commit
+
+        print(f"devlearn {__version__} ({commit})")
+        parser.exit()
+
+
+def _shipped() -> list[str]:
+    return sorted(path.stem for path in (Path(__file__).parent / "worlds").glob("*.json"))
+
+
+def _reproduce(options: argparse.Namespace) -> int:
+    from .errors import InvalidValue
+
+    if options.workers is not None and options.workers < 1:
+        raise InvalidValue("--workers", options.workers, "at least 1")
+    from . import reproduce as reproduction
+
+    if options.figure is not None:
+        for path in reproduction.draw_figure(options.output, options.figure):
+            print(path)
+        return 0
+    try:
+        verdicts = reproduction.reproduce(
+            options.output, seeds=options.seeds, workers=options.workers, say=_say
+        )
+    except KeyboardInterrupt:
+        print(f"what is finished is kept in {options.output}; the same command goes on from there",
+              file=sys.stderr)  # fmt: skip
+        raise
+    for preset, judged in verdicts.items():
+        held = sum(verdict.holds for verdict in judged)
+        print(f"preset {preset}: {held} of {len(judged)} claims hold")
+        for verdict in judged:
+            criterion = verdict.claim["criterion"]
+            print(
+                f"  {'holds   ' if verdict.holds else 'does not'}  {verdict.claim['id']:28} "
+                f"{verdict.figure.value:10.4g}  {criterion['op']} {criterion['bound']:<6g}  "
+                f"control {verdict.control.value:10.4g}"
+                f"{'  (holds, too)' if verdict.control_holds else ''}"
+            )
+    print(f"report: {Path(options.output) / 'report.html'}")
+    return 0
+
+
+def _say(text: str) -> None:
+    print(text, flush=True)
+
+
+def _run(options: argparse.Namespace) -> int:
+    from . import _core, experiments, measures
+    from .errors import FileError
+    from .record import written_aside
+
+    world = _core.World.load(options.world)
+    config = experiments.preset(options.preset)
+    if options.config is not None:
+        try:
+            fields = json.loads(Path(options.config).read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise FileError(options.config, "", error, "a TrialConfig as JSON") from error
+        config = _core.TrialConfig.from_dict(fields)
+    config = _changed(config, options.set)
+
+    trial = _core.Trial(world, config, options.seed)
+    folder = Path(options.output)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError(options.output, "", error.strerror, "a folder that can be made") from error
+    records: dict[str, Record] = {}
+
+    def write() -> None:
+        for name, record in records.items():
+            record.save(folder / f"{name}.npz")
+            if options.csv:
+                record.to_csv(folder / f"{name}.csv")
+
+    try:
+        records["free_1"] = trial.free_learning(options.steps, echoes=options.echoes)
+        records["free_2"] = trial.free_learning(options.steps, echoes=options.echoes)
+        records["paths"] = trial.path_learning(
+            options.rounds, options.step_limit, echoes=options.echoes
+        )
+    except KeyboardInterrupt:
+        if trial.interrupted is not None:
+            records["stopped"] = trial.interrupted
+        write()
+        print(f"what is finished is in {folder}", file=sys.stderr)
+        raise
+    write()
+    paths = records["paths"]
+
+    print(f"world {world.name or options.world}, seed {options.seed}")
+    for i, name in enumerate(("free_1", "free_2"), 1):
+        record = records[name]
+        arrival = measures.first_arrival(record) if len(record) else None
+        print(f"free learning, round {i}: " + (
+            "the target was never reached" if arrival is None else f"target reached at step {arrival}"
+        ))  # fmt: skip
+    steps, arrived = paths.rounds["steps"], paths.rounds["arrived"]
+    if len(steps):
+        settled = measures.settled_round(paths)
+        print(
+            f"path learning: {arrived.sum()} of {len(steps)} rounds arrived; first {steps[0]} steps, "
+            f"last {steps[-1]}; "
+            + ("not settled" if settled is None else f"settled from round {settled} on")
+        )
+    with written_aside(folder / "rounds.csv", "w") as file:
+        file.write("round,steps,arrived\n")
+        file.writelines(f"{r['round']},{r['steps']},{int(r['arrived'])}\n" for r in paths.rounds)
+    _draw(folder, trial, paths)
+    print(f"written: {folder}{os.sep}")
+    return 0
+
+
+def _draw(folder: Path, trial: Trial, paths: Record) -> None:
+    try:
+        from .figures import draw_run
+        from .reproduce import save_figure
+    except ImportError as error:
+        print(f"no picture: {error}", file=sys.stderr)
+        return
+    save_figure(folder, draw_run(trial, paths))
+
+
+def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
+    from .errors import InvalidValue
+
+    fields = config.to_dict()
+    for change in changes:
+        name, equals, text = change.partition("=")
+        *outer, last = name.split(".")
+        place = fields
+        for part in outer:
+            place = place.get(part) if isinstance(place, dict) else None
+        if not equals or not isinstance(place, dict) or last not in place:
+            raise InvalidValue("--set", change, "FIELD=VALUE with a field such as learner.sigma")
+        try:
+            place[last] = json.loads(text)
+        except ValueError:
+            place[last] = text
+    try:
+        return config.from_dict(fields)
+    except TypeError as error:
+        raise InvalidValue("--set", " ".join(changes), "values of each field's type") from error
+
+
+if __name__ == "__main__":
+    sys.exit(main())
