@@ -22,8 +22,10 @@ constexpr double kFreeMargin = 0.0105;
 // No part of a drive moves further at once, less than the slop [m].
 constexpr double kLongestSubstep = 0.0034;
 constexpr int kLeastSubsteps = 15, kMostSubsteps = 1000;
-// So many that a body wedged between two surfaces comes to rest before it is deeper than the slop.
-constexpr int kVelocityIterations = 30, kPositionIterations = 3;
+// Rounds of Box2D's solver. Few do, but where surfaces wedge the body deeper than one substep
+// leads [m], the drive is done again with many.
+constexpr double kShallow = 0.0035;
+constexpr int kFewRounds = 8, kManyRounds = 60, kPositionRounds = 3;
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -63,8 +65,8 @@ struct Drive {
 
 // Drives with Box2D in a world of its own, made of what lies within reach, its origin at the
 // body. Fresh every time: the outcome depends on nothing that happened before.
-Drive simulate(const World& world, const RobotDef& robot, Point from, double heading,
-               int substeps) {
+Drive simulate(const World& world, const RobotDef& robot, Point from, double heading, int substeps,
+               int velocity_rounds) {
   b2World physics(b2Vec2(0.0f, 0.0f));
   physics.SetAllowSleeping(false);
   physics.SetWarmStarting(false);
@@ -110,7 +112,7 @@ Drive simulate(const World& world, const RobotDef& robot, Point from, double hea
   Drive drive;
   const auto time = static_cast<float>(robot.sample_time / substeps);
   for (int i = 0; i < substeps; ++i) {
-    physics.Step(time, kVelocityIterations, kPositionIterations);
+    physics.Step(time, velocity_rounds, kPositionRounds);
     for (const b2ContactEdge* c = body->GetContactList(); c && !drive.touched; c = c->next) {
       drive.touched = c->contact->IsTouching();
     }
@@ -239,19 +241,21 @@ Robot::Step Robot::step(const Pose& pose, int motion) const {
   const double heading = heading_after(pose, motion);
   const int substeps =
       std::max(kLeastSubsteps, static_cast<int>(std::ceil(step_length() / kLongestSubstep)));
-  const Drive drive = simulate(*world_, def_, {pose.x, pose.y}, heading, substeps);
-  const Pose end = drive.touched ? Pose{pose.x + drive.moved.x, pose.y + drive.moved.y, heading}
-                                 : straight_drive(pose, heading, step_length());
-  // Wedged deeper than the slop: the body stays where it was, which is no deeper.
-  if (!fits({end.x, end.y})) return {{pose.x, pose.y, heading}, true};
-  return {end, drive.touched};
+  for (const int rounds : {kFewRounds, kManyRounds}) {
+    const Drive drive = simulate(*world_, def_, {pose.x, pose.y}, heading, substeps, rounds);
+    const Pose end = drive.touched ? Pose{pose.x + drive.moved.x, pose.y + drive.moved.y, heading}
+                                   : straight_drive(pose, heading, step_length());
+    if (fits({end.x, end.y}, rounds == kFewRounds ? kShallow : kSlop)) return {end, drive.touched};
+  }
+  // Deeper than the slop even so: the body stays where it was, which is no deeper.
+  return {{pose.x, pose.y, heading}, true};
 }
 
 Robot::Step Robot::step_simulated(const Pose& pose, int motion, int substeps) const {
   require_count("substeps", substeps, 1, kMostSubsteps);
   require_place(pose);
   const double heading = heading_after(pose, motion);
-  const Drive drive = simulate(*world_, def_, {pose.x, pose.y}, heading, substeps);
+  const Drive drive = simulate(*world_, def_, {pose.x, pose.y}, heading, substeps, kFewRounds);
   return {{pose.x + drive.moved.x, pose.y + drive.moved.y, heading}, drive.touched};
 }
 
@@ -284,12 +288,12 @@ WheelSpeeds Robot::turn_speeds(int motion) const {
 
 WheelSpeeds Robot::drive_speeds() const noexcept { return {def_.speed, def_.speed}; }
 
-bool Robot::fits(Point centre) const noexcept {
-  return world_->clearance(centre, true) >= def_.radius - kSlop;
+bool Robot::fits(Point centre, double depth) const noexcept {
+  return world_->clearance(centre, true) >= def_.radius - depth;
 }
 
 void Robot::require_place(const Pose& pose, const char* what) const {
-  if (is_finite(pose) && fits({pose.x, pose.y})) return;
+  if (is_finite(pose) && fits({pose.x, pose.y}, kSlop)) return;
   const std::string name = what;
   require_in(name + ".x", pose.x, 0.0, world_->def().width, "m");
   require_in(name + ".y", pose.y, 0.0, world_->def().height, "m");

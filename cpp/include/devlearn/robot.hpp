@@ -87,7 +87,7 @@ class Robot {
   double steering_angle(int motion) const;
   double heading_after(const Pose& pose, int motion) const;
   double step_length() const noexcept;
-  bool fits(Point centre) const noexcept;
+  bool fits(Point centre, double depth) const noexcept;
 
   std::shared_ptr<const World> world_;
   RobotDef def_;
