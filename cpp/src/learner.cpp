@@ -46,6 +46,8 @@ void LearnerConfig::validate() const {
   require_between("LearnerConfig.sigma", sigma, 0.0, 1.0);
   require_in("LearnerConfig.c1", c1, 0.0, 1e6);
   require_in("LearnerConfig.c2", c2, -1e6, 1e6);
+  require_count("LearnerConfig.on_negative", static_cast<int>(on_negative), 0, 1);
+  require_count("LearnerConfig.when_exhausted", static_cast<int>(when_exhausted), 0, 1);
 }
 
 bool operator==(const LearnerConfig& a, const LearnerConfig& b) noexcept {
@@ -58,7 +60,7 @@ Learner::Learner(const LearnerConfig& config, std::uint64_t seed)
       seed_(seed),
       random_(seed, "agent"),
       buckets_(buckets_for(0), kAbsent),
-      words_per_situation_(MotorMemory::bytes(config.motion_count) / sizeof(std::uint64_t)) {}
+      bytes_per_situation_(MotorMemory::bytes(config.motion_count)) {}
 
 Choice Learner::choose(SituationId situation) {
   require_situation(situation);
@@ -151,7 +153,7 @@ SituationMemory Learner::situation(SituationId situation) const {
   require_situation(situation);
   const std::uint32_t slot = find(situation);
   if (slot != kAbsent) return memory(slot).copy();
-  std::vector<std::uint64_t> storage(words_per_situation_);
+  std::vector<std::byte> storage(bytes_per_situation_);
   MotorMemory unexperienced(storage.data(), config_.motion_count);
   unexperienced.clear();
   return unexperienced.copy();
@@ -175,8 +177,8 @@ const std::uint32_t& Learner::require_pending(const char* call) const {
 
 MotorMemory Learner::memory(std::uint32_t slot) const noexcept {
   // The view serves reading and developing alike; const members only read through it.
-  auto* const words = const_cast<std::uint64_t*>(blocks_.data());
-  return {words + slot * words_per_situation_, config_.motion_count};
+  auto* const bytes = const_cast<std::byte*>(blocks_.data());
+  return {bytes + slot * bytes_per_situation_, config_.motion_count};
 }
 
 std::uint32_t Learner::find(SituationId situation) const noexcept {
@@ -193,13 +195,13 @@ std::uint32_t Learner::find_or_add(SituationId situation) {
 
   // Everything that may fail comes first, so that a failed allocation changes nothing.
   const std::size_t count = ids_.size() + 1;
-  if (count > ids_.capacity() || count * words_per_situation_ > blocks_.capacity() ||
+  if (count > ids_.capacity() || count * bytes_per_situation_ > blocks_.capacity() ||
       buckets_for(count) > buckets_.size()) {
     reserve(std::max(count, std::min<std::size_t>(ids_.size() * 2, kAbsent - 1)));
   }
   const auto slot = static_cast<std::uint32_t>(ids_.size());
   ids_.push_back(situation);
-  blocks_.resize(blocks_.size() + words_per_situation_);
+  blocks_.resize(blocks_.size() + bytes_per_situation_);
   memory(slot).clear();
   index_into(buckets_, slot);
   return slot;
@@ -210,7 +212,7 @@ void Learner::reserve(std::size_t situations) {
     throw InvalidValue("situations", std::to_string(situations), "at most 4294967294");
   }
   ids_.reserve(situations);
-  blocks_.reserve(situations * words_per_situation_);
+  blocks_.reserve(situations * bytes_per_situation_);
   if (const std::size_t size = buckets_for(situations); size > buckets_.size()) {
     std::vector<std::uint32_t> buckets(size, kAbsent);
     for (std::size_t slot = 0; slot < ids_.size(); ++slot) {

@@ -77,7 +77,8 @@ struct Development {
 ///
 /// Situations come into being when first chosen for, so memory follows experience. The same
 /// configuration, seed and outcomes give the same history on every machine. A learner is for one
-/// thread; two learners share nothing. Copies are independent and go on alike.
+/// thread; two learners share nothing. Copies are independent and go on alike. One that was moved
+/// from can be assigned to or destroyed, nothing else.
 class Learner {
  public:
   /// seed: of the stream "agent". Throws InvalidValue.
@@ -138,12 +139,12 @@ class Learner {
   std::uint64_t seed_;
   Random random_;
 
-  // Situations in order of first experience: ids_[slot], and words_per_situation_ words of
-  // blocks_ each, seen through MotorMemory. buckets_ is an open-addressing index from id to slot.
+  // Situations in order of first experience: ids_[slot], and bytes_per_situation_ of blocks_ each,
+  // seen through MotorMemory. buckets_ is an open-addressing index from id to slot.
   std::vector<SituationId> ids_;
-  std::vector<std::uint64_t> blocks_;
+  std::vector<std::byte> blocks_;
   std::vector<std::uint32_t> buckets_;
-  std::size_t words_per_situation_;
+  std::size_t bytes_per_situation_;
 
   std::uint32_t pending_slot_ = kAbsent;
   Choice pending_choice_;
