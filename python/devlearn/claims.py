@@ -19,7 +19,7 @@ from __future__ import annotations
 import json
 import math
 import operator
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -29,6 +29,11 @@ from .experiments import Measures
 
 _PATH = Path(__file__).parent / "claims.json"
 _COMPARED = {">=": operator.ge, "<=": operator.le}
+_REDUCED: Mapping[str, Callable[[Sequence[float]], Any]] = {
+    "median": np.median,
+    "mean": np.mean,
+    "max": np.max,
+}
 # Which runs a claim is measured on; on "runs" where nothing else is said.
 _OF_SIMILAR_WORLDS = "similar_worlds"
 _OF_SIGMAS = ("sigma_shortens_exploration", "small_sigma_finds_better")
@@ -123,8 +128,7 @@ def aggregate(values: Sequence[Any], how: str) -> Figure:
     ]
     if not numbers:
         return Figure(math.nan)
-    reduce = {"median": np.median, "mean": np.mean, "max": np.max}[how]
-    return _spread(float(reduce(numbers)), numbers)
+    return _spread(float(_REDUCED[how](numbers)), numbers)
 
 
 def _spread(value: float, numbers: Sequence[float]) -> Figure:

@@ -8,7 +8,7 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ._core import Trial, TrialConfig
@@ -56,8 +56,8 @@ def _parser() -> argparse.ArgumentParser:
         "reproduce",
         help="run all of the paper's section VI and write a report",
         description="Runs the paper's section VI over many seeds, for both readings of the method, "
-        "and writes report.html, the figures, Table 1 and all numbers. Stopped with Ctrl-C, it goes "
-        "on from there when called again.",
+        "and writes report.html, the figures, Table 1 and all numbers. Stopped with Ctrl-C, it "
+        "goes on from there when called again.",
     )
     reproduce.add_argument(
         "--figure", type=int, metavar="N", help="draw only this figure of the paper (0: the extras)"
@@ -76,9 +76,9 @@ def _parser() -> argparse.ArgumentParser:
     run = verbs.add_parser(
         "run",
         help="run one experiment in any world",
-        description="One experiment: two rounds of free learning, then path learning by rounds until "
-        "the target is reached. Prints what came of it and writes the records, a table of the rounds "
-        "and, with matplotlib, a picture.",
+        description="One experiment: two rounds of free learning, then path learning by rounds "
+        "until the target is reached. Prints what came of it and writes the records, a table of "
+        "the rounds and, with matplotlib, a picture.",
         epilog=_RUN_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -206,15 +206,16 @@ def _run(options: argparse.Namespace) -> int:
     for i, name in enumerate(("free_1", "free_2"), 1):
         record = records[name]
         arrival = measures.first_arrival(record) if len(record) else None
-        print(f"free learning, round {i}: " + (
-            "the target was never reached" if arrival is None else f"target reached at step {arrival}"
-        ))  # fmt: skip
+        reached = "the target was never reached"
+        if arrival is not None:
+            reached = f"target reached at step {arrival}"
+        print(f"free learning, round {i}: {reached}")
     steps, arrived = paths.rounds["steps"], paths.rounds["arrived"]
     if len(steps):
         settled = measures.settled_round(paths)
         print(
-            f"path learning: {arrived.sum()} of {len(steps)} rounds arrived; first {steps[0]} steps, "
-            f"last {steps[-1]}; "
+            f"path learning: {arrived.sum()} of {len(steps)} rounds arrived; "
+            f"first {steps[0]} steps, last {steps[-1]}; "
             + ("not settled" if settled is None else f"settled from round {settled} on")
         )
     with written_aside(folder / "rounds.csv", "w") as file:
@@ -242,7 +243,7 @@ def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
     for change in changes:
         name, equals, text = change.partition("=")
         *outer, last = name.split(".")
-        place = fields
+        place: Any = fields
         for part in outer:
             place = place.get(part) if isinstance(place, dict) else None
         if not equals or not isinstance(place, dict) or last not in place:

@@ -117,7 +117,7 @@ def job(
     shortest: int | None = None,
     starts: Sequence[tuple[Pose, int]] = (),
 ) -> dict[str, Any]:
-    """A run as plain values. agent: 'learner' or 'random'. starts: new ones, with their shortest."""
+    """A run as plain values. agent: 'learner' or 'random'. starts: new, with shortest paths."""
     return {
         "world": world.to_json(),
         "config": config.to_dict(),

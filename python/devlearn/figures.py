@@ -1,7 +1,7 @@
 """The figures of section VI, each composed of plots of freshly made runs.
 
-Figures 6 to 9 show the runs of seeds 1 to 4; figures 10 to 12 those of the first seeds that settled,
-each on a path of its own, since the paper shows such runs. All are of the `paper` preset.
+Figures 6 to 9 show the runs of seeds 1 to 4; figures 10 to 12 those of the first seeds that
+settled, each on a path of its own, since the paper shows such runs. All are of the `paper` preset.
 """
 
 from __future__ import annotations
@@ -90,8 +90,8 @@ class Gallery:
             Drawn(
                 "fig04_sef",
                 figure,
-                "The SEF energy over the arena (Eq. 6): as a surface and as a map. It is highest at "
-                "the target and falls steeply at obstacles, where the drawing is cut off.",
+                "The SEF energy over the arena (Eq. 6): as a surface and as a map. It is highest "
+                "at the target and falls steeply at obstacles, where the drawing is cut off.",
             )
         ]
 
@@ -139,14 +139,15 @@ class Gallery:
         phases = {"this round": record, "round 2": self.four[0].second}
         phases["path learning"] = self.long.paths
         for kind in missing:
-            for phase, searched in phases.items():
-                place = plots.find_entry_and_window(searched, kind)
-                if place is not None:
-                    break
-            else:
+            places = [
+                (phase, searched, place)
+                for phase, searched in phases.items()
+                if (place := plots.find_entry_and_window(searched, kind)) is not None
+            ]
+            if not places:
                 drawn[0] = drawn[0]._replace(caption=drawn[0].caption + f" {kind} never occurs.")
                 continue
-            entry, window = place
+            phase, searched, (entry, window) = places[0]
             figure, ax = _panels(1, 1, height=2.8, width=4.8)
             plots.plot_episodes(searched, ax=ax[0], entry=entry, window=window)
             drawn.append(
@@ -288,11 +289,11 @@ FIGURES: Mapping[int, Callable[[Gallery], list[Drawn]]] = {
 }
 
 
-# --- statistics over the seeds ----------------------------------------------------------------------
+# --- statistics over the seeds --------------------------------------------------------------------
 
 
 def draw_rounds_over_seeds(runs_by_preset: Mapping[str, Sequence[Mapping[str, Any]]]) -> Drawn:
-    """Steps by round, median and 10th to 90th percentile of all runs, beside the paper's Table 1."""
+    """Steps by round, median and 10th to 90th percentile of the runs, beside the paper's."""
     with mpl.rc_context(plots.STYLE):
         figure, (ax,) = _panels(1, 1, width=4.8, height=3.0)
         styles = [(plots.BLUE, "-"), (plots.VERMILLION, "--")]

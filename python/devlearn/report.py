@@ -61,16 +61,16 @@ def write_report(
 {html.escape(str(provenance["devlearn"]))} (commit {html.escape(str(provenance["commit"]))}) over
 {seeds} seeds, in {seconds:.0f} s. {_summary(verdicts)}</p>
 <h2>The paper's claims</h2>
-<p>Each criterion was written down before the first run. The control is something for which the claim
-should fail; where it holds for the control too, the criterion says little. The spread is the 10th to
-the 90th percentile of the runs.</p>
+<p>Each criterion was written down before the first run. The control is something for which the
+claim should fail; where it holds for the control too, the criterion says little. The spread is the
+10th to the 90th percentile of the runs.</p>
 {_claims(verdicts)}
 <h2>Over all seeds</h2>{"".join(map(_figure, statistics))}
 {"".join(figures)}
 <h2>How it was made</h2>
 <p>A run is two rounds of free learning of {experiments.FREE_STEPS} steps, then up to
-{experiments.PATH_ROUNDS} rounds of path learning, each failed after {experiments.STEP_LIMIT} steps; a
-run ends early after {experiments.HOPELESS_ROUNDS} failed rounds in a row, and the rounds left out
+{experiments.PATH_ROUNDS} rounds of path learning, each failed after {experiments.STEP_LIMIT} steps;
+a run ends early after {experiments.HOPELESS_ROUNDS} failed rounds in a row, and the rounds left out
 count as failed in the statistics of steps. All numbers are in numbers.json.</p>
 <pre>{html.escape(_provenance(provenance))}</pre>
 </body></html>
@@ -81,7 +81,8 @@ count as failed in the statistics of steps. All numbers are in numbers.json.</p>
 
 def _summary(verdicts: Mapping[str, Sequence[Verdict]]) -> str:
     return " ".join(
-        f"Preset <code>{name}</code>: {sum(v.holds for v in of_preset)} of {len(of_preset)} claims hold."
+        f"Preset <code>{name}</code>: {sum(v.holds for v in of_preset)} of {len(of_preset)} "
+        "claims hold."
         for name, of_preset in verdicts.items()
     )
 
@@ -100,7 +101,10 @@ def _claims(verdicts: Mapping[str, Sequence[Verdict]]) -> str:
             f"{claim['aggregate']} {claim['criterion']['op']} {claim['criterion']['bound']:g}"
         )
         cells = "".join(
-            f"{_number(v.figure)}{_yes(v.holds)}{_number(v.control)}{_yes(v.control_holds, good=False)}"
+            _number(v.figure)
+            + _yes(v.holds)
+            + _number(v.control)
+            + _yes(v.control_holds, good=False)
             for v in row
         )
         rows.append(

@@ -102,7 +102,7 @@ def save_figure(folder: Path, drawn: figures.Drawn) -> list[Path]:
     return paths
 
 
-# --- runs -------------------------------------------------------------------------------------------
+# --- runs -----------------------------------------------------------------------------------------
 
 
 def _run(
@@ -165,7 +165,7 @@ def _run(
     return results
 
 
-# --- tables and numbers -----------------------------------------------------------------------------
+# --- tables and numbers ---------------------------------------------------------------------------
 
 
 def table_1(gallery: figures.Gallery, results: dict[str, Results]) -> list[list[Any]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 import json
 import multiprocessing
 import os
@@ -168,7 +169,7 @@ def _completed(
         running: dict[Future[Result], int] = {}
         queue = iter(remaining)
         while True:
-            while len(running) < 2 * workers and (i := next(queue, None)) is not None:
+            for i in itertools.islice(queue, 2 * workers - len(running)):
                 running[executor.submit(function, jobs[i])] = i
             if not running:
                 break
