@@ -21,6 +21,7 @@ body { font: 16px/1.5 system-ui, sans-serif; color: #222; margin: 0 auto; paddin
        max-width: 76rem; }
 h1 { font-size: 1.6rem; } h2 { font-size: 1.25rem; margin-top: 2.5rem; }
 table { border-collapse: collapse; width: 100%; font-size: 0.86rem; }
+.claims td:first-child { min-width: 22rem; }
 th, td { border-bottom: 1px solid #ddd; padding: 0.4rem 0.5rem; text-align: left;
          vertical-align: top; }
 thead th { border-bottom: 2px solid #222; }
@@ -41,6 +42,7 @@ def write_report(
     drawn: Mapping[int, Sequence[Drawn]],
     statistics: Sequence[Drawn],
     table: Sequence[Sequence[Any]],
+    summary: Sequence[Sequence[Any]],
     provenance: Mapping[str, Any],
     seeds: int,
     seconds: float,
@@ -49,7 +51,7 @@ def write_report(
     figures = [
         f"<h2>{'Beyond the paper' if number == 0 else f'Figure {number}'}</h2>"
         + "".join(map(_figure, group))
-        + (_table_1(table) if number == 10 else "")
+        + (f"<h2>Table 1</h2>{_table(table)}" if number == 10 else "")
         for number, group in drawn.items()
     ]
     page = f"""<!DOCTYPE html>
@@ -65,7 +67,9 @@ def write_report(
 claim should fail; where it holds for the control too, the criterion says little. The spread is the
 10th to the 90th percentile of the runs.</p>
 {_claims(verdicts)}
-<h2>Over all seeds</h2>{"".join(map(_figure, statistics))}
+<h2>Over all seeds</h2>
+{_table(summary)}
+{"".join(map(_figure, statistics))}
 {"".join(figures)}
 <h2>How it was made</h2>
 <p>A run is two rounds of free learning of {experiments.FREE_STEPS} steps, then up to
@@ -114,7 +118,7 @@ def _claims(verdicts: Mapping[str, Sequence[Verdict]]) -> str:
             f"<td>{html.escape(criterion)}</td>{cells}</tr>"
         )
     return (
-        f'<div class="scroll"><table><thead><tr><th>claim</th><th>criterion</th>{head}</tr></thead>'
+        f'<div class="scroll"><table class="claims"><thead><tr><th>claim</th><th>criterion</th>{head}</tr></thead>'
         f"<tbody>{''.join(rows)}</tbody></table></div>"
     )
 
@@ -144,16 +148,20 @@ def _figure(drawn: Drawn) -> str:
     )
 
 
-def _table_1(table: Sequence[Sequence[Any]]) -> str:
-    head, *rows = table
-    cells = "".join(f'<th class="number">{html.escape(str(name))}</th>' for name in head)
-    body = "".join(
-        "<tr>" + "".join(f'<td class="number">{value:g}</td>' for value in row) + "</tr>"
-        for row in rows
-    )
+def _table(rows: Sequence[Sequence[Any]]) -> str:
+    head, *body = rows
+
+    def cells(row: Sequence[Any], tag: str) -> str:
+        return "".join(
+            f'<{tag} class="{"text" if isinstance(row[0], str) and not i else "number"}">'
+            f"{html.escape(value if isinstance(value, str) else f'{value:g}')}</{tag}>"
+            for i, value in enumerate(row)
+        )
+
+    lines = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in body)
     return (
-        '<h2>Table 1</h2><div class="scroll"><table><thead><tr>'
-        f"{cells}</tr></thead><tbody>{body}</tbody></table></div>"
+        f'<div class="scroll"><table><thead><tr>{cells(head, "th")}</tr></thead>'
+        f"<tbody>{lines}</tbody></table></div>"
     )
 
 

@@ -61,6 +61,7 @@ def reproduce(
     say("writing tables and report")
     table = table_1(gallery, results)
     write_csv(folder / "table1.csv", table)
+    summary = summarise(results, gallery.shortest)
     provenance = provenance_of(world, gallery.config, 1, None)
     provenance |= {"seed": f"1 to {seeds}", "agent": "devlearn.Learner, devlearn.RandomAgent"}
     seconds = time.monotonic() - began
@@ -76,7 +77,15 @@ def reproduce(
     with written_aside(folder / "numbers.json", "w") as file:
         json.dump(_finite(numbers), file, indent=1)
     write_report(
-        folder / "report.html", verdicts, drawn, statistics, table, provenance, seeds, seconds
+        folder / "report.html",
+        verdicts,
+        drawn,
+        statistics,
+        table,
+        summary,
+        provenance,
+        seeds,
+        seconds,
     )
     return verdicts
 
@@ -187,6 +196,41 @@ def table_1(gallery: figures.Gallery, results: dict[str, Results]) -> list[list[
             ]
         rows.append(row)
     return rows
+
+
+def summarise(results: dict[str, Results], shortest: int) -> list[list[str]]:
+    """What became of the main runs, a column a preset; a header row first."""
+
+    def column(runs: Sequence[Measures]) -> dict[str, str]:
+        settled = [run for run in runs if run["settles"]]
+        lengths = [run["round_steps"][-1] for run in settled]
+        failed = [run["every_round_arrives"] for run in runs]
+        return {
+            "runs": str(len(runs)),
+            "target first reached, round 1 [step]": _spread([r["first_arrival"] for r in runs]),
+            "runs that settled": f"{len(settled)}",
+            "settled from round": _spread([run["settled_early"] for run in settled]),
+            f"steps of the settled path (shortest: {shortest})": _spread(lengths),
+            "different settled paths": str(len({run["habit"] for run in settled})),
+            "steps of the last round": _spread([run["round_steps"][-1] for run in runs]),
+            "runs with a round that never arrived": str(sum(count > 0 for count in failed)),
+            "runs ended early as hopeless": str(
+                sum(len(run["round_steps"]) < experiments.PATH_ROUNDS for run in runs)
+            ),
+            "mappings explored": _spread([run["mappings_explored"] for run in runs]),
+            "mappings effective at the end": _spread([run["mappings_effective"] for run in runs]),
+        }
+
+    columns = [column(result.runs) for result in results.values()]
+    rows = [[name, *(column[name] for column in columns)] for name in columns[0]]
+    return [["median (10th to 90th percentile)", *results], *rows]
+
+
+def _spread(values: Sequence[float]) -> str:
+    if not values:
+        return "none"
+    low, median, high = np.percentile(values, [10, 50, 90])
+    return f"{median:.0f} ({low:.0f} to {high:.0f})"
 
 
 def write_csv(path: Path, rows: Sequence[Sequence[Any]]) -> None:
