@@ -24,7 +24,7 @@ struct Rectangle {
   Point center;
   double width = 0.0;   ///< along its own x axis, in [0.01, 1000] m
   double height = 0.0;  ///< along its own y axis, in [0.01, 1000] m
-  double angle = 0.0;   ///< of its own x axis, counter-clockwise [degrees]
+  double angle = 0.0;   ///< of its own x axis, counter-clockwise, in [-360, 360] degrees
 };
 
 /// Any simple polygon, convex or not, its corners in either direction of turning.
@@ -34,14 +34,15 @@ struct Polygon {
 
 using Obstacle = std::variant<Circle, Rectangle, Polygon>;
 
-/// What a world is made of.
+/// What a world is made of. Centres and corners lie in the arena enlarged by its own size on each
+/// side; limits on numbers are in docs/world-format.md.
 struct WorldDef {
-  std::string name;          ///< for people
-  std::string description;   ///< for people
-  double width = 5.0;        ///< the arena's side along x, in [0.5, 1000] m
-  double height = 5.0;       ///< the arena's side along y, in [0.5, 1000] m
-  Pose start{0.5, 0.5, 0.0}; ///< inside the arena, outside every obstacle
-  Point target{4.5, 4.5};    ///< inside the arena, outside every obstacle
+  std::string name;                 ///< for people
+  std::string description;          ///< for people
+  double width = 5.0;               ///< the arena's side along x, in [0.5, 1000] m
+  double height = 5.0;              ///< the arena's side along y, in [0.5, 1000] m
+  Pose start{0.5, 0.5, 0.0};        ///< inside the arena, outside every obstacle
+  Point target{4.5, 4.5};           ///< inside the arena, outside every obstacle
   std::vector<Obstacle> obstacles;  ///< they may overlap each other and the walls
 };
 
