@@ -13,7 +13,24 @@ namespace {
 // A collision is never effective, whatever it gained.
 constexpr double kCollisionSmf = -1.0;
 
-constexpr std::int64_t kStepsBetweenInterrupts = 64;
+constexpr std::int64_t kStepsBetweenInterrupts = 8;
+
+// One call at a time: an agent that calls its trial back would pull the step from under itself.
+class OneCall {
+ public:
+  explicit OneCall(bool& under_way) : under_way_(under_way) {
+    if (under_way_) {
+      throw InvalidValue("Trial", "a call while another is under way", "one call at a time");
+    }
+    under_way_ = true;
+  }
+  ~OneCall() { under_way_ = false; }
+  OneCall(const OneCall&) = delete;
+  OneCall& operator=(const OneCall&) = delete;
+
+ private:
+  bool& under_way_;
+};
 
 // Cells of cell_size over the arena, from its origin; the last ones may reach beyond it.
 SituationGrid grid_over(const World& world, const TrialConfig& config) {
@@ -98,7 +115,11 @@ Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
 }
 
 StepRecord Trial::step() {
-  if (round_ == 0) begin_round();
+  const OneCall call(under_way_);
+  return tick();
+}
+
+StepRecord Trial::tick() {
   const State before = state_;
 
   // situation -> choice
@@ -126,6 +147,7 @@ StepRecord Trial::step() {
   // record
   pose_ = moved.pose;
   state_ = after;
+  round_ = std::max(round_, 1);
   StepRecord step;
   step.round = round_;
   step.situation = before.situation;
@@ -170,6 +192,11 @@ double Trial::clearance(const Pose& pose) const {
 void Trial::begin_round() { place(world().def().start); }
 
 void Trial::place(const Pose& pose) {
+  const OneCall call(under_way_);
+  put(pose);
+}
+
+void Trial::put(const Pose& pose) {
   robot_.require_place(pose);
   const State state = sense(pose);
   pose_ = pose;
@@ -179,13 +206,15 @@ void Trial::place(const Pose& pose) {
 
 void Trial::run(Record& record, std::int64_t steps, const RunOptions& options) {
   require_count("steps", steps, 0, std::int64_t{1} << 40);
-  if (round_ == 0) begin_round();
+  const OneCall call(under_way_);
+  round_ = std::max(round_, 1);
   run_on(record, steps, false, options);
 }
 
 void Trial::free_learning(Record& record, std::int64_t steps, const RunOptions& options) {
   require_count("steps", steps, 0, std::int64_t{1} << 40);
-  begin_round();
+  const OneCall call(under_way_);
+  put(world().def().start);
   run_on(record, steps, false, options);
 }
 
@@ -193,8 +222,9 @@ void Trial::path_learning(Record& record, std::int64_t rounds, std::int64_t step
                           const RunOptions& options) {
   require_count("rounds", rounds, 0, std::int64_t{1} << 30);
   require_count("step_limit", step_limit, 1, std::int64_t{1} << 40);
+  const OneCall call(under_way_);
   for (std::int64_t i = 0; i < rounds; ++i) {
-    begin_round();
+    put(world().def().start);
     if (!run_on(record, step_limit, true, options)) return;
   }
 }
@@ -205,15 +235,15 @@ bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
   if (options.echoes) record.sonar_count = config_.robot.sonar_count;
   record.begin_round(round_, pose_);
   if (state_.arrived && steps > 0 && until_arrival) record.rounds.back().arrived = true;
-  for (std::int64_t i = 0; i < steps && !(until_arrival && state_.arrived); ++i) {
+  for (std::int64_t i = 0;; ++i) {
     if (options.interrupt && i % kStepsBetweenInterrupts == 0 && options.interrupt()) return false;
-    record.append(step());
+    if (i == steps || (until_arrival && state_.arrived)) return true;
+    record.append(tick());
     if (options.echoes) {
       const std::vector<double> echoes = robot_.sonar(pose_);
       record.echoes.insert(record.echoes.end(), echoes.begin(), echoes.end());
     }
   }
-  return true;
 }
 
 Record Trial::run(std::int64_t steps, const RunOptions& options) {

@@ -45,7 +45,7 @@ inline bool operator!=(const TrialConfig& a, const TrialConfig& b) noexcept { re
 /// How a run is watched.
 struct RunOptions {
   bool echoes = false;  ///< whether the sonars' echoes are recorded
-  /// Called every 64 steps; returning true ends the run there.
+  /// Called before a round's first step and every few steps; returning true ends the run there.
   std::function<bool()> interrupt;
 };
 
@@ -53,7 +53,7 @@ struct RunOptions {
 /// -> record.
 ///
 /// A new trial stands at the world's start. Its rounds are numbered from 1; the first begins with
-/// whatever is called first.
+/// whatever is called first. One call at a time: an agent that moves its own trial is refused.
 class Trial {
  public:
   /// With a learner of its own from config.learner and `seed`. Throws InvalidValue.
@@ -106,6 +106,8 @@ class Trial {
     double goal_distance = 0.0, clearance = 0.0, sef = 0.0;
     bool arrived = false;
   };
+  StepRecord tick();
+  void put(const Pose& pose);
   State sense(const Pose& pose) const;
   double clearance(const Pose& pose) const;
   bool run_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
@@ -118,6 +120,7 @@ class Trial {
   Pose pose_;
   State state_;
   std::int32_t round_ = 0;
+  bool under_way_ = false;
 };
 
 }  // namespace devlearn
