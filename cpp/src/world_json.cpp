@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -352,13 +353,27 @@ struct ObstacleText {
   }
 };
 
+// Where a file of this name lies: a link goes on pointing at it. A device must not be replaced.
+std::string place_of(const std::string& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status)) return path;
+  if (!std::filesystem::is_regular_file(status)) {
+    const char* what =
+        std::filesystem::is_directory(status) ? std::strerror(EISDIR) : "not a regular file";
+    throw FileError(path, "", what, "a file that can be written");
+  }
+  const std::filesystem::path place = std::filesystem::canonical(path, ignored);
+  return place.empty() ? path : place.string();
+}
+
 // A file on the side that either takes the place of `path` as a whole or goes away.
 class SideFile {
  public:
-  explicit SideFile(const std::string& path) : path_(path) {
+  explicit SideFile(const std::string& path) : path_(path), place_(place_of(path)) {
     static std::atomic<unsigned> count{0};
     do {
-      side_ = path + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
+      side_ = place_ + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
       descriptor_ = ::open(side_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ < 0) refuse();
@@ -382,7 +397,7 @@ class SideFile {
   void commit() {
     if (::fsync(descriptor_) != 0) refuse();
     if (::close(std::exchange(descriptor_, -1)) != 0) refuse();
-    if (std::rename(side_.c_str(), path_.c_str()) != 0) refuse();
+    if (std::rename(side_.c_str(), place_.c_str()) != 0) refuse();
     side_.clear();
   }
 
@@ -393,7 +408,7 @@ class SideFile {
   }
 
   const std::string& path_;
-  std::string side_;
+  std::string place_, side_;
   int descriptor_ = -1;
 };
 
