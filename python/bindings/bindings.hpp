@@ -51,11 +51,6 @@ struct MotionTag {
   static constexpr const char* quantity = "motion";
   static constexpr const char* allowed = "a whole number in [0, motion_count - 1]";
 };
-struct CountTag {
-  using type = std::int64_t;
-  static constexpr const char* quantity = "count";
-  static constexpr const char* allowed = "a whole number in [0, 2^40]";
-};
 
 /// devlearn.Record, built on the Python side.
 class RecordObject : public py::object {
@@ -63,6 +58,16 @@ class RecordObject : public py::object {
   using py::object::object;
   explicit RecordObject(py::object record) : py::object(std::move(record)) {}
 };
+
+/// A path from Python as the system takes it: text, bytes or os.PathLike.
+inline std::string file_path(const py::object& path) {
+  std::string text = py::bytes(py::module_::import("os").attr("fsencode")(path));
+  if (text.find('\0') != std::string::npos) {
+    throw FileError(text.substr(0, text.find('\0')), "", "a name that holds a null",
+                    "a file's name");
+  }
+  return text;
+}
 
 /// A numpy array that takes over the vector's memory.
 template <typename Scalar, typename T>
@@ -74,8 +79,24 @@ py::array moved_array(std::vector<T>&& values, std::vector<py::ssize_t> shape = 
   return py::array(py::dtype::of<Scalar>(), std::move(shape), owned->data(), owner);
 }
 
+/// The attributes of these names, as a tuple.
+inline py::tuple attributes(const py::object& self, const std::vector<std::string>& names) {
+  py::tuple values(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) values[i] = self.attr(names[i].c_str());
+  return values;
+}
+
+/// Pickling of a class whose constructor takes the attributes of these names, in this order.
+template <typename T>
+void def_pickling(py::class_<T>& cls, std::vector<std::string> names) {
+  cls.def("__reduce__", [names = std::move(names)](const py::object& self) {
+    return py::make_tuple(py::type::of(self), attributes(self, names));
+  });
+}
+
 /// What every configuration class offers beyond its fields: to_dict, from_dict, replace, equality,
-/// repr and pickling. `nested` maps a field to the class that its dict stands for.
+/// repr and pickling. The names are those of the constructor's arguments, in their order. `nested`
+/// maps a field to the class that its dict stands for.
 template <typename T>
 void def_fields(py::class_<T>& cls, std::vector<std::string> names, py::dict nested = {}) {
   const std::string owner = py::str(cls.attr("__name__"));
@@ -119,7 +140,14 @@ void def_fields(py::class_<T>& cls, std::vector<std::string> names, py::dict nes
       "A copy with some fields changed.");
   cls.def(
       "__eq__", [](const T& a, const T& b) { return a == b; }, py::is_operator());
-  cls.def("__hash__", [](const py::object& self) { return py::hash(py::repr(self)); });
+  cls.def("__hash__", [names](const py::object& self) {
+    py::list values;
+    for (const std::string& name : names) {
+      const py::object value = self.attr(name.c_str());
+      values.append(py::isinstance<py::list>(value) ? py::object(py::tuple(value)) : value);
+    }
+    return py::hash(py::tuple(values));
+  });
   cls.def("__repr__", [names, owner](const py::object& self) {
     std::string text;
     for (const std::string& name : names) {
@@ -128,10 +156,7 @@ void def_fields(py::class_<T>& cls, std::vector<std::string> names, py::dict nes
     }
     return owner + "(" + text + ")";
   });
-  cls.def("__reduce__", [](const py::object& self) {
-    return py::make_tuple(py::type::of(self).attr("from_dict"),
-                          py::make_tuple(self.attr("to_dict")()));
-  });
+  def_pickling(cls, names);
 }
 
 }  // namespace devlearn::python

@@ -14,7 +14,9 @@ void bind_error(py::module_&) {
     try {
       if (raised) std::rethrow_exception(raised);
     } catch (const FileError& error) {
-      raise("FileError", error.file(), error.field(), error.value(), error.allowed());
+      const auto file = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(
+          error.file().data(), static_cast<py::ssize_t>(error.file().size())));
+      raise("FileError", file, error.field(), error.value(), error.allowed());
     } catch (const InvalidValue& error) {
       raise("InvalidValue", error.quantity(), error.value(), error.allowed());
     }

@@ -7,6 +7,17 @@
 namespace devlearn::python {
 namespace {
 
+struct MotionCountTag {
+  using type = int;
+  static constexpr const char* quantity = "LearnerConfig.motion_count";
+  static constexpr const char* allowed = "a whole number in [1, 65535]";
+};
+struct ReserveTag {
+  using type = std::size_t;
+  static constexpr const char* quantity = "situations";
+  static constexpr const char* allowed = "a whole number in [0, 2^32 - 2]";
+};
+
 OnNegative on_negative(const std::string& text) {
   if (text == "abandon") return OnNegative::kAbandon;
   if (text == "weaken") return OnNegative::kWeaken;
@@ -32,10 +43,11 @@ void bind_config(py::module_& m) {
       "effective: 'retry' (any motion; one that proves effective re-enters) or 'wander' (any "
       "motion;\n"
       "nothing is learned). Raises InvalidValue.");
-  cls.def(py::init([](int motion_count, double eta, double sigma, double c1, double c2,
-                      const std::string& negative, const std::string& exhausted) {
+  cls.def(py::init([](Whole<MotionCountTag> motion_count, double eta, double sigma, double c1,
+                      double c2, const std::string& negative, const std::string& exhausted) {
             const LearnerConfig config{
-                motion_count, eta, sigma, c1, c2, on_negative(negative), when_exhausted(exhausted)};
+                motion_count.value,       eta, sigma, c1, c2, on_negative(negative),
+                when_exhausted(exhausted)};
             config.validate();
             return config;
           }),
@@ -84,8 +96,8 @@ void bind_results(py::module_& m) {
       .finalize();
 
   py::class_<Choice>(m, "Choice", "A motion to execute: its index in M, and why.")
-      .def(py::init([](int motion, Kind kind) {
-             return Choice{motion, kind};
+      .def(py::init([](Whole<MotionTag> motion, Kind kind) {
+             return Choice{motion.value, kind};
            }),
            py::arg("motion"), py::arg("kind") = Kind::kUnstated)
       .def_readonly("motion", &Choice::motion, "Index in M.")
@@ -191,8 +203,10 @@ void bind_learner(py::module_& m) {
           "situations",
           [](const Learner& self) { return moved_array<SituationId>(self.situations()); },
           "Ids of the situations experienced, in that order: an int64 array.")
-      .def("reserve", &Learner::reserve, py::arg("situations"),
-           "Makes room for so many situations in all.")
+      .def(
+          "reserve",
+          [](Learner& self, Whole<ReserveTag> situations) { self.reserve(situations.value); },
+          py::arg("situations"), "Makes room for so many situations in all.")
       .def("copy", copy, "An independent learner that goes on alike.")
       .def("__copy__", copy)
       .def(

@@ -3,6 +3,15 @@
 #include "bindings.hpp"
 
 namespace devlearn::python {
+namespace {
+
+struct CountTag {
+  using type = long long;
+  static constexpr const char* quantity = "count";
+  static constexpr const char* allowed = "a whole number in [1, 2^32 - 1]";
+};
+
+}  // namespace
 
 void bind_random(py::module_& m) {
   py::class_<Random>(m, "Random",
@@ -17,9 +26,9 @@ void bind_random(py::module_& m) {
       .def("uniform", &Random::uniform, "A float uniform on [0, 1).")
       .def(
           "index",
-          [](Random& self, long long count) {
-            require_count("count", count, 1, 0xffffffffLL);
-            return self.index(static_cast<std::uint32_t>(count));
+          [](Random& self, Whole<CountTag> count) {
+            require_count("count", count.value, 1, 0xffffffffLL);
+            return self.index(static_cast<std::uint32_t>(count.value));
           },
           py::arg("count"),
           "An int uniform on {0, ..., count - 1}. Raises InvalidValue unless 1 <= count < 2**32.");

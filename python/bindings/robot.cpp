@@ -6,6 +6,20 @@
 #include "devlearn/shortest_path.hpp"
 
 namespace devlearn::python {
+namespace {
+
+struct SonarCountTag {
+  using type = int;
+  static constexpr const char* quantity = "sonar_count";
+  static constexpr const char* allowed = "a whole number in [0, 720]";
+};
+struct SubstepsTag {
+  using type = int;
+  static constexpr const char* quantity = "substeps";
+  static constexpr const char* allowed = "a whole number in [1, 1000]";
+};
+
+}  // namespace
 
 void bind_robot(py::module_& m) {
   py::class_<RobotDef> cls(
@@ -18,20 +32,25 @@ void bind_robot(py::module_& m) {
       "in\n"
       "0 ... 720; sonar_fov in [0, 360] degrees about the heading; sonar_range in [0.01, 100] m.\n"
       "Raises InvalidValue.");
-  cls.def(
-      py::init([](double radius, double speed, double sample_time, std::optional<double> track,
-                  std::vector<double> steering_angles, int sonar_count, double sonar_fov,
-                  double sonar_range) {
-        RobotDef def{
-            radius,      speed,     sample_time, track.value_or(0.0), std::move(steering_angles),
-            sonar_count, sonar_fov, sonar_range};
-        def.validate();
-        return def;
-      }),
-      py::arg("radius") = 0.1, py::arg("speed") = 0.1, py::arg("sample_time") = 0.5,
-      py::arg("track") = py::none(),
-      py::arg("steering_angles") = py::make_tuple(-60.0, -30.0, 0.0, 30.0, 60.0),
-      py::arg("sonar_count") = 5, py::arg("sonar_fov") = 180.0, py::arg("sonar_range") = 2.0);
+  cls.def(py::init([](double radius, double speed, double sample_time, std::optional<double> track,
+                      std::vector<double> steering_angles, Whole<SonarCountTag> sonar_count,
+                      double sonar_fov, double sonar_range) {
+            if (track) require_above("track", *track, 0.0, 10.0, "m");
+            RobotDef def{radius,
+                         speed,
+                         sample_time,
+                         track.value_or(0.0),
+                         std::move(steering_angles),
+                         sonar_count.value,
+                         sonar_fov,
+                         sonar_range};
+            def.validate();
+            return def;
+          }),
+          py::arg("radius") = 0.1, py::arg("speed") = 0.1, py::arg("sample_time") = 0.5,
+          py::arg("track") = py::none(),
+          py::arg("steering_angles") = py::make_tuple(-60.0, -30.0, 0.0, 30.0, 60.0),
+          py::arg("sonar_count") = 5, py::arg("sonar_fov") = 180.0, py::arg("sonar_range") = 2.0);
   cls.def_readonly("radius", &RobotDef::radius, "r [m]");
   cls.def_readonly("speed", &RobotDef::speed, "v [m/s]");
   cls.def_readonly("sample_time", &RobotDef::sample_time, "t_s [s]");
@@ -69,8 +88,9 @@ void bind_robot(py::module_& m) {
           "something to touch. Raises InvalidValue.")
       .def(
           "step_simulated",
-          [](const Robot& self, const Pose& pose, Whole<MotionTag> motion, int substeps) {
-            const Robot::Step step = self.step_simulated(pose, motion.value, substeps);
+          [](const Robot& self, const Pose& pose, Whole<MotionTag> motion,
+             Whole<SubstepsTag> substeps) {
+            const Robot::Step step = self.step_simulated(pose, motion.value, substeps.value);
             return std::make_pair(step.pose, step.collided);
           },
           py::arg("pose"), py::arg("motion"), py::arg("substeps") = 15,

@@ -48,6 +48,25 @@ handle type_caster<devlearn::Point>::cast(const devlearn::Point& point, return_v
 }  // namespace PYBIND11_NAMESPACE
 
 namespace devlearn::python {
+namespace {
+
+struct ColumnsTag {
+  using type = int;
+  static constexpr const char* quantity = "SituationGrid.columns";
+  static constexpr const char* allowed = "a whole number in [1, 100000]";
+};
+struct RowsTag {
+  using type = int;
+  static constexpr const char* quantity = "SituationGrid.rows";
+  static constexpr const char* allowed = "a whole number in [1, 100000]";
+};
+struct HeadingsTag {
+  using type = int;
+  static constexpr const char* quantity = "SituationGrid.headings";
+  static constexpr const char* allowed = "a whole number in [1, 3600]";
+};
+
+}  // namespace
 
 void bind_situation(py::module_& m) {
   py::class_<SituationGrid>(
@@ -57,9 +76,12 @@ void bind_situation(py::module_& m) {
       "centred on k * 360 / headings degrees. id = (row * columns + column) * headings + bin.\n\n"
       "Parameters: width, height in (0, 10000] m; columns, rows in 1 ... 100000; headings in\n"
       "1 ... 3600. Raises InvalidValue.")
-      .def(py::init<double, double, int, int, int>(), py::arg("width") = 5.0,
-           py::arg("height") = 5.0, py::arg("columns") = 20, py::arg("rows") = 20,
-           py::arg("headings") = 12)
+      .def(py::init([](double width, double height, Whole<ColumnsTag> columns, Whole<RowsTag> rows,
+                       Whole<HeadingsTag> headings) {
+             return SituationGrid(width, height, columns.value, rows.value, headings.value);
+           }),
+           py::arg("width") = 5.0, py::arg("height") = 5.0, py::arg("columns") = 20,
+           py::arg("rows") = 20, py::arg("headings") = 12)
       .def(
           "situation", &SituationGrid::situation, py::arg("x"), py::arg("y"), py::arg("heading"),
           "The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers "

@@ -10,6 +10,27 @@
 namespace devlearn::python {
 namespace {
 
+struct StepsTag {
+  using type = std::int64_t;
+  static constexpr const char* quantity = "steps";
+  static constexpr const char* allowed = "a whole number in [0, 2^40]";
+};
+struct RoundsTag {
+  using type = std::int64_t;
+  static constexpr const char* quantity = "rounds";
+  static constexpr const char* allowed = "a whole number in [0, 2^30]";
+};
+struct StepLimitTag {
+  using type = std::int64_t;
+  static constexpr const char* quantity = "step_limit";
+  static constexpr const char* allowed = "a whole number in [1, 2^40]";
+};
+struct HeadingBinsTag {
+  using type = int;
+  static constexpr const char* quantity = "TrialConfig.heading_bins";
+  static constexpr const char* allowed = "a whole number in [1, 3600]";
+};
+
 ClearanceSource clearance_source(const std::string& text) {
   if (text == "geometric") return ClearanceSource::kGeometric;
   if (text == "sonar") return ClearanceSource::kSonar;
@@ -30,7 +51,6 @@ class PythonAgent final : public Agent {
   }
 
   Choice choose(const Observation& observation) override {
-    const py::gil_scoped_acquire gil;
     const py::object chosen = agent_.attr("choose")(observation);
     if (py::isinstance<Choice>(chosen)) return chosen.cast<Choice>();
     if (!PyIndex_Check(chosen.ptr())) {
@@ -40,9 +60,12 @@ class PythonAgent final : public Agent {
   }
 
   Development observe(const Outcome& outcome) override {
-    const py::gil_scoped_acquire gil;
     const py::object result = agent_.attr("observe")(outcome);
     return py::isinstance<Development>(result) ? result.cast<Development>() : Development{};
+  }
+
+  void cancel() override {
+    if (py::hasattr(agent_, "cancel")) agent_.attr("cancel")();
   }
 
   const py::object& object() const { return agent_; }
@@ -53,7 +76,7 @@ class PythonAgent final : public Agent {
 
 std::shared_ptr<Agent> as_agent(const py::object& agent) {
   if (py::isinstance<RandomAgent>(agent)) return agent.cast<std::shared_ptr<RandomAgent>>();
-  if (py::isinstance<Learner>(agent)) {
+  if (py::isinstance<Learner>(agent) && !py::hasattr(agent, "observe")) {
     return std::make_shared<LearnerAgent>(agent.cast<std::shared_ptr<Learner>>());
   }
   return std::make_shared<PythonAgent>(agent);
@@ -74,28 +97,29 @@ RecordObject as_record(const Trial& trial, Record&& record) {
                                              trial.config(), trial.seed(), agent_of(trial)));
 }
 
-/// Runs `phase(record, options)` without the GIL. Ctrl-C is looked for every 20 ms; then, and where
-/// an agent raises, what is finished stays in `trial.interrupted`.
+/// Runs `phase(trial, record, options)`. Every 5 ms, between two steps, other threads get their
+/// turn and Ctrl-C is looked for; then, and where an agent raises, what is finished stays in
+/// `trial.interrupted`. The GIL is kept in between: another thread may hold the same learner, and
+/// Box2D bears one thread at a time.
 template <typename Phase>
 RecordObject run_phase(py::object& self, bool echoes, const Phase& phase) {
   auto& trial = self.cast<Trial&>();
   using Clock = std::chrono::steady_clock;
-  constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
+  constexpr auto kBetweenLooks = std::chrono::milliseconds(5);
   Clock::time_point looked = Clock::now();
   bool stopped = false;
   const RunOptions options{echoes, [&] {
                              if (Clock::now() - looked < kBetweenLooks) return false;
-                             const py::gil_scoped_acquire gil;
+                             { const py::gil_scoped_release other_threads; }
                              stopped = PyErr_CheckSignals() != 0;
                              looked = Clock::now();
                              return stopped;
                            }};
   Record record;
   try {
-    const py::gil_scoped_release no_gil;
     phase(trial, record, options);
   } catch (...) {
-    self.attr("interrupted") = as_record(trial, std::move(record));
+    if (!record.rounds.empty()) self.attr("interrupted") = as_record(trial, std::move(record));
     throw;
   }
   if (stopped) {
@@ -114,26 +138,27 @@ void bind_config(py::module_& m) {
       "'geometric' (exact) or 'sonar' (least echo plus the robot's radius; needs walls_count);\n"
       "walls_count, whether walls count in d_o; goal_radius in (0, 100] m; cell_size in\n"
       "[0.001, 1000] m and heading_bins in 1 ... 3600 of the situation grid. Raises InvalidValue.");
-  cls.def(py::init([](const std::optional<LearnerConfig>& learner,
-                      const std::optional<StateEvaluation>& evaluation,
-                      const std::optional<RobotDef>& robot, const std::string& source,
-                      bool walls_count, double goal_radius, double cell_size, int heading_bins) {
-            TrialConfig config;
-            config.robot = robot.value_or(RobotDef{});
-            config.learner = learner.value_or(LearnerConfig{});
-            config.evaluation = evaluation.value_or(StateEvaluation{});
-            config.clearance_source = clearance_source(source);
-            config.walls_count = walls_count;
-            config.goal_radius = goal_radius;
-            config.cell_size = cell_size;
-            config.heading_bins = heading_bins;
-            config.validate();
-            return config;
-          }),
-          py::arg("learner") = py::none(), py::arg("evaluation") = py::none(),
-          py::arg("robot") = py::none(), py::arg("clearance_source") = "geometric",
-          py::arg("walls_count") = false, py::arg("goal_radius") = 0.1, py::arg("cell_size") = 0.25,
-          py::arg("heading_bins") = 12);
+  cls.def(
+      py::init([](const std::optional<LearnerConfig>& learner,
+                  const std::optional<StateEvaluation>& evaluation,
+                  const std::optional<RobotDef>& robot, const std::string& source, bool walls_count,
+                  double goal_radius, double cell_size, Whole<HeadingBinsTag> heading_bins) {
+        TrialConfig config;
+        config.robot = robot.value_or(RobotDef{});
+        config.learner = learner.value_or(LearnerConfig{});
+        config.evaluation = evaluation.value_or(StateEvaluation{});
+        config.clearance_source = clearance_source(source);
+        config.walls_count = walls_count;
+        config.goal_radius = goal_radius;
+        config.cell_size = cell_size;
+        config.heading_bins = heading_bins.value;
+        config.validate();
+        return config;
+      }),
+      py::arg("learner") = py::none(), py::arg("evaluation") = py::none(),
+      py::arg("robot") = py::none(), py::arg("clearance_source") = "geometric",
+      py::arg("walls_count") = false, py::arg("goal_radius") = 0.1, py::arg("cell_size") = 0.25,
+      py::arg("heading_bins") = 12);
   cls.def_static("paper", &TrialConfig::paper, "The default, with LearnerConfig.paper().");
   cls.def_static("step5", &TrialConfig::step5, "The other reading, with LearnerConfig.step5().");
   cls.def_readonly("learner", &TrialConfig::learner, "LearnerConfig");
@@ -193,8 +218,9 @@ void bind_trial(py::module_& m) {
       "development -> record.\n\n"
       "Parameters: world; config, a TrialConfig (None: the paper's); seed of the learner's draws;\n"
       "agent: None for a new paper's learner, a Learner (shared, not copied), or any object with\n"
-      "choose(observation) -> motion index or Choice, and observe(outcome). Raises "
-      "InvalidValue.\n\n"
+      "choose(observation) -> motion index or Choice, observe(outcome) and, if it likes, "
+      "cancel(),\n"
+      "called where its motion was refused. Raises InvalidValue.\n\n"
       "A phase that Ctrl-C or an agent's exception ends leaves what it finished in `interrupted`.");
   cls.attr("interrupted") = py::none();
   cls.def(py::init([](const World& world, const std::optional<TrialConfig>& given,
@@ -208,7 +234,7 @@ void bind_trial(py::module_& m) {
       .def("step", &Trial::step, "One tick of the loop.")
       .def(
           "run",
-          [](py::object& self, Whole<CountTag> steps, bool echoes) {
+          [](py::object& self, Whole<StepsTag> steps, bool echoes) {
             return run_phase(self, echoes,
                              [&](Trial& trial, Record& record, const RunOptions& run) {
                                trial.run(record, steps.value, run);
@@ -219,7 +245,7 @@ void bind_trial(py::module_& m) {
           "sonars, too.")
       .def(
           "free_learning",
-          [](py::object& self, Whole<CountTag> steps, bool echoes) {
+          [](py::object& self, Whole<StepsTag> steps, bool echoes) {
             return run_phase(self, echoes,
                              [&](Trial& trial, Record& record, const RunOptions& run) {
                                trial.free_learning(record, steps.value, run);
@@ -229,7 +255,8 @@ void bind_trial(py::module_& m) {
           "A new round of `steps` steps from the start pose; reaching the target ends nothing.")
       .def(
           "path_learning",
-          [](py::object& self, Whole<CountTag> rounds, Whole<CountTag> step_limit, bool echoes) {
+          [](py::object& self, Whole<RoundsTag> rounds, Whole<StepLimitTag> step_limit,
+             bool echoes) {
             return run_phase(self, echoes,
                              [&](Trial& trial, Record& record, const RunOptions& run) {
                                trial.path_learning(record, rounds.value, step_limit.value, run);

@@ -7,8 +7,28 @@
 namespace devlearn::python {
 namespace {
 
+double clearance(const World& world, double x, double y, bool walls_count) {
+  require_finite("x", x);
+  require_finite("y", y);
+  return world.clearance({x, y}, walls_count);
+}
+
+/// Equality and pickling of a class that is made from the attributes of these names.
+template <typename T>
+void def_value(py::class_<T>& cls, const std::vector<std::string>& names) {
+  cls.def(
+      "__eq__",
+      [names](const py::object& a, const T& b) {
+        return attributes(a, names).equal(attributes(py::cast(b), names));
+      },
+      py::is_operator());
+  def_pickling(cls, names);
+}
+
 void bind_obstacles(py::module_& m) {
-  py::class_<Circle>(m, "Circle", "A round obstacle: center (x, y) [m], radius in [0.01, 1000] m.")
+  py::class_<Circle> circle(m, "Circle",
+                            "A round obstacle: center (x, y) [m], radius in [0.01, 1000] m.");
+  circle
       .def(py::init([](Point center, double radius) {
              return Circle{center, radius};
            }),
@@ -18,9 +38,12 @@ void bind_obstacles(py::module_& m) {
       .def("__repr__", [](const py::object& self) {
         return py::str("Circle({}, {})").format(self.attr("center"), self.attr("radius"));
       });
-  py::class_<Rectangle>(m, "Rectangle",
-                        "A rectangular obstacle: center (x, y) [m], size (width, height) in "
-                        "[0.01, 1000] m, turned by `angle` degrees counter-clockwise.")
+  def_value(circle, {"center", "radius"});
+  py::class_<Rectangle> rectangle(
+      m, "Rectangle",
+      "A rectangular obstacle: center (x, y) [m], size (width, height) "
+      "in [0.01, 1000] m, turned by `angle` degrees counter-clockwise.");
+  rectangle
       .def(py::init([](Point center, Point size, double angle) {
              return Rectangle{center, size.x, size.y, angle};
            }),
@@ -37,15 +60,19 @@ void bind_obstacles(py::module_& m) {
         return py::str("Rectangle({}, {}, {})")
             .format(self.attr("center"), self.attr("size"), self.attr("angle"));
       });
-  py::class_<Polygon>(m, "Polygon",
-                      "An obstacle of any simple outline, convex or not: at least 3 corners (x, y) "
-                      "[m] in either direction, neighbours at least 0.01 m apart.")
+  def_value(rectangle, {"center", "size", "angle"});
+  py::class_<Polygon> polygon(m, "Polygon",
+                              "An obstacle of any simple outline, convex or not: at least 3 "
+                              "corners (x, y) [m] in either direction, neighbours at least 0.01 m "
+                              "apart.");
+  polygon
       .def(py::init([](std::vector<Point> corners) { return Polygon{std::move(corners)}; }),
            py::arg("corners"))
       .def_readonly("corners", &Polygon::corners, "(x, y) of each corner [m]")
       .def("__repr__", [](const py::object& self) {
         return py::str("Polygon({})").format(self.attr("corners"));
       });
+  def_value(polygon, {"corners"});
 }
 
 }  // namespace
@@ -53,12 +80,14 @@ void bind_obstacles(py::module_& m) {
 void bind_world(py::module_& m) {
   bind_obstacles(m);
 
-  py::class_<World>(
+  py::class_<World> world(
       m, "World",
       "An arena with walls, obstacles, a start and a target; checked once, then unchanging.\n\n"
       "Parameters: width, height of the arena in [0.5, 1000] m; start (x, y, heading) and target\n"
       "(x, y) inside it and outside every obstacle, in metres and degrees; obstacles, a list of\n"
-      "Circle, Rectangle and Polygon. Raises InvalidValue.")
+      "Circle, Rectangle and Polygon. Raises InvalidValue.");
+  def_pickling(world, {"width", "height", "start", "target", "obstacles", "name", "description"});
+  world
       .def(py::init([](double width, double height, const Pose& start, const Point& target,
                        std::vector<Obstacle> obstacles, std::string name, std::string description) {
              return World(WorldDef{std::move(name), std::move(description), width, height, start,
@@ -73,7 +102,7 @@ void bind_world(py::module_& m) {
           [](const py::object& path_or_name) {
             const py::object path =
                 py::module_::import("devlearn._worlds").attr("path_of")(path_or_name);
-            return World::load(path.cast<std::string>());
+            return World::load(file_path(path));
           },
           py::arg("path_or_name"),
           "The world in a JSON file, or one that ships by its name (see devlearn.worlds()). Raises "
@@ -83,27 +112,25 @@ void bind_world(py::module_& m) {
           "The world in JSON text. Raises FileError.")
       .def("to_json", &World::to_json, "JSON text that from_json reads back as an equal world.")
       .def(
-          "save",
-          [](const World& self, const py::object& path) {
-            self.save(py::module_::import("os").attr("fspath")(path).cast<std::string>());
-          },
+          "save", [](const World& self, const py::object& path) { self.save(file_path(path)); },
           py::arg("path"), "Writes to_json() to a file, atomically. Raises FileError.")
       .def("with_start", &World::with_start, py::arg("start"),
            "The same world with another start (x, y, heading). Raises InvalidValue.")
       .def(
           "clearance",
           [](const World& self, double x, double y, bool walls_count) {
-            return self.clearance({x, y}, walls_count);
+            return clearance(self, x, y, walls_count);
           },
           py::arg("x"), py::arg("y"), py::arg("walls_count") = false,
           "d_o: least distance from a point to an obstacle's surface [m], 0 inside one, inf where "
-          "there is none; with walls_count the walls count too. Numbers or arrays.")
+          "there is none; with walls_count the walls count too. Numbers or arrays. Raises "
+          "InvalidValue for what is not finite.")
       .def(
           "clearance",
           [](const World& self, const py::array_t<double>& x, const py::array_t<double>& y,
              bool walls_count) {
             return py::vectorize([&self, walls_count](double px, double py_) {
-              return self.clearance({px, py_}, walls_count);
+              return clearance(self, px, py_, walls_count);
             })(x, y);
           },
           py::arg("x"), py::arg("y"), py::arg("walls_count") = false)
@@ -135,11 +162,6 @@ void bind_world(py::module_& m) {
           "__eq__", [](const World& a, const World& b) { return a.to_json() == b.to_json(); },
           py::is_operator())
       .def("__hash__", [](const World& self) { return py::hash(py::str(self.to_json())); })
-      .def("__reduce__",
-           [](const py::object& self) {
-             return py::make_tuple(py::type::of(self).attr("from_json"),
-                                   py::make_tuple(self.attr("to_json")()));
-           })
       .def("__repr__", [](const World& self) {
         return "<devlearn.World '" + self.def().name + "': " + to_text(self.def().width) + " x " +
                to_text(self.def().height) + " m, " + std::to_string(self.def().obstacles.size()) +

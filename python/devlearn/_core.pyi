@@ -46,7 +46,7 @@ class Random:
     The paper's learner draws from the stream "agent" of its seed.
     """
     def __init__(self, seed: typing.SupportsIndex, stream: str) -> None: ...
-    def index(self, count: typing.SupportsInt | typing.SupportsIndex) -> int:
+    def index(self, count: typing.SupportsIndex) -> int:
         """
         An int uniform on {0, ..., count - 1}. Raises InvalidValue unless 1 <= count < 2**32.
         """
@@ -73,9 +73,9 @@ class SituationGrid:
         self,
         width: typing.SupportsFloat | typing.SupportsIndex = 5.0,
         height: typing.SupportsFloat | typing.SupportsIndex = 5.0,
-        columns: typing.SupportsInt | typing.SupportsIndex = 20,
-        rows: typing.SupportsInt | typing.SupportsIndex = 20,
-        headings: typing.SupportsInt | typing.SupportsIndex = 12,
+        columns: typing.SupportsIndex = 20,
+        rows: typing.SupportsIndex = 20,
+        headings: typing.SupportsIndex = 12,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def centre(self, situation: typing.SupportsIndex) -> devlearn._types.Pose:
@@ -235,7 +235,7 @@ class LearnerConfig:
     def __hash__(self) -> int: ...
     def __init__(
         self,
-        motion_count: typing.SupportsInt | typing.SupportsIndex = 5,
+        motion_count: typing.SupportsIndex = 5,
         eta: typing.SupportsFloat | typing.SupportsIndex = 0.05,
         sigma: typing.SupportsFloat | typing.SupportsIndex = 0.3,
         c1: typing.SupportsFloat | typing.SupportsIndex = 0.5,
@@ -317,9 +317,7 @@ class Choice:
 
     __hash__: typing.ClassVar[None] = None  # type: ignore
     def __eq__(self, other: object, /) -> bool: ...
-    def __init__(
-        self, motion: typing.SupportsInt | typing.SupportsIndex, kind: Kind = Kind.UNSTATED
-    ) -> None: ...
+    def __init__(self, motion: typing.SupportsIndex, kind: Kind = Kind.UNSTATED) -> None: ...
     def __repr__(self) -> str: ...
     @property
     def kind(self) -> Kind:
@@ -428,7 +426,7 @@ class Learner:
         """
         Steps 4-5: learns from the chosen motion's SMF (finite; >= 0 means effective), or from that of the `motion` that really ran. Raises InvalidValue where no choice waits.
         """
-    def reserve(self, situations: typing.SupportsInt | typing.SupportsIndex) -> None:
+    def reserve(self, situations: typing.SupportsIndex) -> None:
         """
         Makes room for so many situations in all.
         """
@@ -484,11 +482,15 @@ class Circle:
     """
     A round obstacle: center (x, y) [m], radius in [0.01, 1000] m.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
     def __init__(
         self,
         center: collections.abc.Sequence[float],
         radius: typing.SupportsFloat | typing.SupportsIndex,
     ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
     @property
     def center(self) -> tuple[float, float]:
@@ -505,12 +507,16 @@ class Rectangle:
     """
     A rectangular obstacle: center (x, y) [m], size (width, height) in [0.01, 1000] m, turned by `angle` degrees counter-clockwise.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
     def __init__(
         self,
         center: collections.abc.Sequence[float],
         size: collections.abc.Sequence[float],
         angle: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
     @property
     def angle(self) -> float:
@@ -532,9 +538,13 @@ class Polygon:
     """
     An obstacle of any simple outline, convex or not: at least 3 corners (x, y) [m] in either direction, neighbours at least 0.01 m apart.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
     def __init__(
         self, corners: collections.abc.Sequence[collections.abc.Sequence[float]]
     ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
     @property
     def corners(self) -> list[tuple[float, float]]:
@@ -582,7 +592,7 @@ class World:
         walls_count: bool = False,
     ) -> float:
         """
-        d_o: least distance from a point to an obstacle's surface [m], 0 inside one, inf where there is none; with walls_count the walls count too. Numbers or arrays.
+        d_o: least distance from a point to an obstacle's surface [m], 0 inside one, inf where there is none; with walls_count the walls count too. Numbers or arrays. Raises InvalidValue for what is not finite.
         """
     @typing.overload
     def clearance(
@@ -668,7 +678,7 @@ class RobotDef:
             30.0,
             60.0,
         ),
-        sonar_count: typing.SupportsInt | typing.SupportsIndex = 5,
+        sonar_count: typing.SupportsIndex = 5,
         sonar_fov: typing.SupportsFloat | typing.SupportsIndex = 180.0,
         sonar_range: typing.SupportsFloat | typing.SupportsIndex = 2.0,
     ) -> None: ...
@@ -746,7 +756,7 @@ class Robot:
         self,
         pose: collections.abc.Sequence[float],
         motion: typing.SupportsIndex,
-        substeps: typing.SupportsInt | typing.SupportsIndex = 15,
+        substeps: typing.SupportsIndex = 15,
     ) -> tuple[devlearn._types.Pose, bool]:
         """
         The same with Box2D all the way, for comparison. Raises InvalidValue.
@@ -887,7 +897,7 @@ class TrialConfig:
         walls_count: bool = False,
         goal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         cell_size: typing.SupportsFloat | typing.SupportsIndex = 0.25,
-        heading_bins: typing.SupportsInt | typing.SupportsIndex = 12,
+        heading_bins: typing.SupportsIndex = 12,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -1018,7 +1028,8 @@ class Trial:
 
     Parameters: world; config, a TrialConfig (None: the paper's); seed of the learner's draws;
     agent: None for a new paper's learner, a Learner (shared, not copied), or any object with
-    choose(observation) -> motion index or Choice, and observe(outcome). Raises InvalidValue.
+    choose(observation) -> motion index or Choice, observe(outcome) and, if it likes, cancel(),
+    called where its motion was refused. Raises InvalidValue.
 
     A phase that Ctrl-C or an agent's exception ends leaves what it finished in `interrupted`.
     """
