@@ -15,9 +15,9 @@ def worlds() -> list[str]:
 
 def path_of(path_or_name: str | os.PathLike[str]) -> str:
     """The file that a path, or the name of a world that ships, stands for."""
-    text = os.fspath(path_or_name)
+    text = os.fsdecode(path_or_name)
+    if text in worlds() and not os.path.isfile(text):
+        return str(_FOLDER / f"{text}.json")
     if os.path.exists(text):
         return text
-    if text in worlds():
-        return str(_FOLDER / f"{text}.json")
     raise FileError(text, "", "no such file", f"a world file, or one of {', '.join(worlds())}")

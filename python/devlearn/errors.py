@@ -17,7 +17,7 @@ class InvalidValue(ValueError):  # noqa: N818 - it names the value, as C++ does
     """
 
     def __init__(self, quantity: str, value: object, allowed: str) -> None:
-        super().__init__(quantity, value, allowed)
+        super().__init__(quantity, str(value), allowed)
         self.quantity = quantity
         self.value = str(value)
         self.allowed = allowed
@@ -38,12 +38,17 @@ class FileError(InvalidValue, OSError):
     """
 
     def __init__(self, file: str, field: str, value: object, allowed: str) -> None:
-        OSError.__init__(self, file, field, value, allowed)
+        OSError.__init__(self)  # it would take these for an errno and its text
+        self.args = (file, field, str(value), allowed)
+        self.filename = file
         self.quantity = field
         self.value = str(value)
         self.allowed = allowed
         self.file = file
         self.field = field
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), self.args
 
     def __str__(self) -> str:
         where = f"{self.file}: {self.field}" if self.field else self.file

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import json
 import os
 import tempfile
-import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import IO, Any
 
@@ -41,6 +41,7 @@ STEP_COLUMNS = {
 # One value a pose: a round of n steps has n + 1.
 POSE_COLUMNS = {"x": np.float64, "y": np.float64, "heading": np.float64}
 _ROUND_FIELDS = {"round": np.int32, "steps": np.int64, "arrived": np.bool_}
+_ROUNDS_DTYPE = np.dtype(list(_ROUND_FIELDS.items()))
 
 
 class Record:
@@ -99,8 +100,13 @@ class Record:
     ) -> None:
         """From the columns above and a provenance; raises InvalidValue where they do not fit."""
         _check(columns)
-        for name in (*STEP_COLUMNS, *POSE_COLUMNS, "rounds"):
+        if not isinstance(provenance, Mapping):
+            raise InvalidValue("provenance", type(provenance).__name__, "a mapping")
+        for name in (*STEP_COLUMNS, *POSE_COLUMNS):
             setattr(self, name, columns[name])
+        self.rounds = np.empty(len(columns["rounds"]), _ROUNDS_DTYPE)  # without padding
+        for field in _ROUND_FIELDS:
+            self.rounds[field] = columns["rounds"][field]
         self.echoes = columns.get("echoes")
         self.provenance = dict(provenance)
 
@@ -114,6 +120,22 @@ class Record:
         agent: object,
     ) -> Record:
         return cls(columns, provenance_of(world, config, seed, agent))
+
+    @classmethod
+    def concatenate(cls, records: Sequence[Record]) -> Record:
+        """Records of one trial, one after the other, as one; the provenance is the first's.
+
+        Raises InvalidValue for no records, or where only some hold echoes.
+        """
+        if not records:
+            raise InvalidValue("records", "none", "at least one")
+        names = [*STEP_COLUMNS, *POSE_COLUMNS, "rounds"]
+        if any(record.echoes is not None for record in records):
+            if any(record.echoes is None for record in records):
+                raise InvalidValue("records", "echoes in some only", "echoes in all or in none")
+            names.append("echoes")
+        columns = {name: np.concatenate([getattr(r, name) for r in records]) for name in names}
+        return cls(columns, records[0].provenance)
 
     def __len__(self) -> int:
         """How many steps."""
@@ -169,7 +191,7 @@ class Record:
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Record:
         """Read what ``save`` wrote. Raises FileError."""
-        name = os.fspath(path)
+        name = os.fsdecode(path)
         try:
             with np.load(name, allow_pickle=False) as file:
                 columns = {key: file[key] for key in file.files}
@@ -178,10 +200,14 @@ class Record:
             provenance = header["provenance"]
         except FileNotFoundError as error:
             raise FileError(name, "", "no such file", "a record saved by devlearn") from error
-        except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
-            raise FileError(name, "", f"unreadable: {error}", "a record saved by devlearn") from error
-        if found != FORMAT or not isinstance(version, int):
+        except Exception as error:  # zipfile, zlib, numpy and json each have their own
+            raise FileError(
+                name, "", f"unreadable: {error}", "a record saved by devlearn"
+            ) from error
+        if found != FORMAT:
             raise FileError(name, "format", found, FORMAT)
+        if type(version) is not int or version < 1:
+            raise FileError(name, "version", version, f"in [1, {FORMAT_VERSION}]")
         if version > FORMAT_VERSION:
             raise FileError(
                 name, "version", version, f"at most {FORMAT_VERSION}; a newer devlearn wrote it"
@@ -217,11 +243,13 @@ def provenance_of(
     world: _core.World, config: _core.TrialConfig, seed: int, agent: object
 ) -> dict[str, Any]:
     """Where a result comes from, as plain values."""
+    text = world.to_json()
+    digest = hashlib.sha256(text.encode()).hexdigest()  # world.hash, without the text made twice
     return {
         "devlearn": _core.__version__,
         "commit": _core.commit,
         "box2d": _core.box2d_version,
-        "world": {"name": world.name, "hash": world.hash, "json": world.to_json()},
+        "world": {"name": world.name, "hash": digest, "json": text},
         "config": config.to_dict(),
         "seed": seed,
         "agent": f"{type(agent).__module__}.{type(agent).__qualname__}",
@@ -230,24 +258,36 @@ def provenance_of(
 
 @contextmanager
 def written_aside(path: str | os.PathLike[str], mode: str) -> Iterator[IO[Any]]:
-    """A file that takes its name only once it is whole and on the disk. Raises FileError."""
-    name = os.fspath(path)
-    folder = os.path.dirname(os.path.abspath(name))
+    """A file that takes its name only once it is whole and on the disk. Raises FileError.
+
+    What is there and is no file, such as /dev/stdout, is written to as it is.
+    """
+    name = os.fsdecode(path)
+    if "\0" in name:
+        raise FileError(name, "", "a name that holds a null", "a file that can be written")
+    text: dict[str, Any] = {} if "b" in mode else {"encoding": "utf-8", "newline": ""}
     aside = ""
     try:
-        text = {} if "b" in mode else {"encoding": "utf-8", "newline": ""}
-        handle, aside = tempfile.mkstemp(prefix=f".{os.path.basename(name)}.", dir=folder)
+        if os.path.exists(name) and not os.path.isfile(name):
+            with open(name, mode, **text) as file:
+                yield file
+            return
+        place = os.path.realpath(name)  # a link goes on pointing at the file
+        folder, base = os.path.split(place)
+        handle, aside = tempfile.mkstemp(prefix=f".{base}.", dir=folder)
         with os.fdopen(handle, mode, **text) as file:
             yield file
             file.flush()
             os.fsync(file.fileno())
         os.chmod(aside, 0o666 & ~_umask())
-        os.replace(aside, name)
+        os.replace(aside, place)
         aside = ""
     except OSError as error:
         if isinstance(error, FileError):
             raise
-        raise FileError(name, "", error.strerror or str(error), "a file that can be written") from error
+        raise FileError(
+            name, "", error.strerror or str(error), "a file that can be written"
+        ) from error
     finally:
         if aside and os.path.exists(aside):
             os.unlink(aside)
@@ -267,12 +307,17 @@ def _check(columns: Mapping[str, npt.NDArray[Any]]) -> None:
     for name in columns:
         if name not in (*names, "echoes"):
             raise InvalidValue(name, "an unknown column", ", ".join((*names, "echoes")))
+        if name == "echoes" and columns[name] is None:
+            continue
+        if not isinstance(columns[name], np.ndarray) or columns[name].ndim == 0:
+            raise InvalidValue(name, f"a value of {type(columns[name]).__name__}", "an array")
     rounds = columns["rounds"]
     for field, dtype in _ROUND_FIELDS.items():
         if rounds.dtype.fields is None or rounds.dtype.fields.get(field, (None,))[0] != dtype:
             raise InvalidValue("rounds", rounds.dtype, f"fields {', '.join(_ROUND_FIELDS)}")
     steps = len(columns["situation"])
-    if rounds.ndim != 1 or (rounds["steps"] < 0).any() or int(rounds["steps"].sum()) != steps:
+    each = rounds["steps"].ravel().tolist()  # whole numbers of Python, whose sum never wraps
+    if rounds.ndim != 1 or min(each, default=0) < 0 or sum(each) != steps:
         raise InvalidValue("rounds.steps", "another sum", f"{steps}, the number of steps")
     expected = dict.fromkeys(STEP_COLUMNS, steps) | dict.fromkeys(POSE_COLUMNS, steps + len(rounds))
     for name, dtype in (STEP_COLUMNS | POSE_COLUMNS).items():
@@ -288,5 +333,7 @@ def _check(columns: Mapping[str, npt.NDArray[Any]]) -> None:
         echoes.dtype != np.float64 or echoes.ndim != 2 or len(echoes) != steps
     ):
         raise InvalidValue(
-            "echoes", f"{echoes.dtype} of shape {echoes.shape}", f"float64 of shape ({steps}, sonars)"
+            "echoes",
+            f"{echoes.dtype} of shape {echoes.shape}",
+            f"float64 of shape ({steps}, sonars)",
         )
