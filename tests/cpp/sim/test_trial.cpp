@@ -1,0 +1,612 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "../core/refusal.hpp"
+#include "devlearn/error.hpp"
+#include "devlearn/trial.hpp"
+
+using namespace devlearn;
+
+namespace {
+
+World shipped(const std::string& name) {
+  return World::load(std::string(DEVLEARN_SOURCE_DIR) + "/python/devlearn/worlds/" + name +
+                     ".json");
+}
+
+// A world in which the golden trials touch nothing, so that their history is the same whatever
+// Box2D does.
+World open_world() {
+  WorldDef def;
+  def.name = "open";
+  def.width = def.height = 12.0;
+  def.start = {5.0, 5.0, 0.0};
+  def.target = {6.5, 6.0};
+  def.obstacles = {Circle{{4.6, 6.8}, 0.2}, Rectangle{{8.0, 4.2}, 0.4, 0.2, 30.0},
+                   Polygon{{{8.5, 7.5}, {9.5, 7.4}, {8.9, 8.2}}}};
+  return World(def);
+}
+
+TrialConfig sonar_config() {
+  TrialConfig config;
+  config.clearance_source = ClearanceSource::kSonar;
+  config.walls_count = true;
+  return config;
+}
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, " %.17g", value);
+  return text;
+}
+
+// A line a step, and before each round one for the pose that it begins from.
+std::vector<std::string> lines_of(const Record& record) {
+  std::vector<std::string> lines;
+  std::size_t step = 0;
+  for (std::size_t i = 0; i < record.rounds.size(); ++i) {
+    const Round& round = record.rounds[i];
+    const auto pose = [&](std::size_t k) {
+      return number(record.x[k]) + number(record.y[k]) + number(record.heading[k]);
+    };
+    lines.push_back("round " + std::to_string(round.round) + " " + std::to_string(round.steps) +
+                    " " + std::to_string(round.arrived) + pose(step + i));
+    for (std::int64_t n = 0; n < round.steps; ++n, ++step) {
+      std::string line;
+      for (const long long whole :
+           {static_cast<long long>(record.situation[step]),
+            static_cast<long long>(record.motion[step]), static_cast<long long>(record.kind[step]),
+            static_cast<long long>(record.event[step]),
+            static_cast<long long>(record.reduced[step]),
+            static_cast<long long>(record.explored_count[step]),
+            static_cast<long long>(record.effective_count[step]),
+            static_cast<long long>(record.collided[step]),
+            static_cast<long long>(record.arrived[step])}) {
+        line += std::to_string(whole) + " ";
+      }
+      lines.push_back(line + "|" + pose(step + i + 1) + number(record.sef[step]) +
+                      number(record.smf[step]) + number(record.smf_used[step]) +
+                      number(record.goal_distance[step]) + number(record.clearance[step]));
+    }
+  }
+  return lines;
+}
+
+bool same(const Record& a, const Record& b) {
+  return lines_of(a) == lines_of(b) && a.echoes == b.echoes && a.round == b.round;
+}
+
+// A learning history with rounds of both kinds.
+Record whole_history(Trial& trial, std::int64_t steps) {
+  Record record;
+  trial.free_learning(record, steps);
+  trial.free_learning(record, steps / 2);
+  trial.path_learning(record, 20, 400);
+  return record;
+}
+
+std::string golden_text(const std::vector<std::string>& lines) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const std::string& line : lines) {
+    for (const char letter : line + "\n") {
+      hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+    }
+  }
+  char head[80];
+  std::snprintf(head, sizeof head, "hash %016llx of %zu lines\n",
+                static_cast<unsigned long long>(hash), lines.size());
+  std::string text = head;
+  constexpr std::size_t kFirst = 200, kLast = 20;
+  for (std::size_t i = 0; i < kFirst; ++i) text += lines[i] + "\n";
+  text += "...\n";
+  for (std::size_t i = lines.size() - kLast; i < lines.size(); ++i) text += lines[i] + "\n";
+  return text;
+}
+
+void check_golden(const std::string& preset, TrialConfig config) {
+  config.evaluation = {20.0, 0.3, 3.0, 0.5, 1.5};  // obstacles are felt from afar
+  Trial trial(open_world(), config, 2);
+  const Record record = whole_history(trial, 3000);
+  REQUIRE(std::count(record.collided.begin(), record.collided.end(), 1) == 0);
+  const std::string text = golden_text(lines_of(record));
+  const std::string path =
+      std::string(DEVLEARN_SOURCE_DIR) + "/tests/golden/trial_" + preset + ".txt";
+  if (std::getenv("DEVLEARN_UPDATE_GOLDEN") != nullptr) std::ofstream(path) << text;
+  std::stringstream golden;
+  golden << std::ifstream(path).rdbuf();
+  std::string expected, got;
+  for (std::stringstream stream(text); std::getline(golden, expected);) {
+    std::getline(stream, got);
+    REQUIRE(got == expected);
+  }
+  CHECK(golden.str() == text);
+}
+
+/// Motions by a rule, to steer a trial from a test; counts what it is asked and told.
+class Scripted final : public Agent {
+ public:
+  std::function<Choice(const Observation&)> choosing = [](const Observation&) {
+    return Choice{2, Kind::kUnstated};
+  };
+  std::function<void(const Outcome&)> observing = [](const Outcome&) {};
+  Choice choose(const Observation& observation) override {
+    ++chosen;
+    return choosing(observation);
+  }
+  Development observe(const Outcome& outcome) override {
+    observing(outcome);
+    ++observed;
+    return {};
+  }
+  void cancel() override { ++cancelled; }
+  int chosen = 0, observed = 0, cancelled = 0;
+};
+
+}  // namespace
+
+// --- the same seed, the same history ------------------------------------------------------------
+
+// To write the golden files anew: DEVLEARN_UPDATE_GOLDEN=1 test_sim -tc="the golden trial*"
+TEST_CASE("the golden trial of the paper's preset is repeated to the last bit") {
+  check_golden("paper", TrialConfig::paper());
+}
+
+TEST_CASE("the golden trial of step 5's preset is repeated to the last bit") {
+  check_golden("step5", TrialConfig::step5());
+}
+
+// tests/python/test_trial.py asks for this history, which has contacts, and compares it with its
+// own: both then come from the same Box2D.
+TEST_CASE("the history of the paper's world is written to DEVLEARN_WRITE_HISTORY") {
+  Trial trial(shipped("paper"), {}, 7);
+  const Record record = whole_history(trial, 3000);
+  CHECK(std::count(record.collided.begin(), record.collided.end(), 1) > 10);
+  if (const char* path = std::getenv("DEVLEARN_WRITE_HISTORY")) {
+    std::ofstream file(path);
+    for (const std::string& line : lines_of(record)) file << line << "\n";
+  }
+}
+
+TEST_CASE("the same seed gives the same history, another seed another one") {
+  Trial first(shipped("paper"), {}, 7), second(shipped("paper"), {}, 7),
+      third(shipped("paper"), {}, 8);
+  const Record record = whole_history(first, 2000);
+  CHECK(same(record, whole_history(second, 2000)));
+  CHECK_FALSE(same(record, whole_history(third, 2000)));
+}
+
+TEST_CASE("one call, pieces, and step by step give the same history") {
+  const World world = shipped("paper");
+  Trial whole(world, {}, 3), pieces(world, {}, 3), steps(world, {}, 3);
+  const Record record = whole.free_learning(1000);
+
+  Record joined = pieces.free_learning(1);
+  for (const int count : {0, 7, 300, 692}) {
+    const Record piece = pieces.run(count);
+    REQUIRE(piece.steps() == static_cast<std::size_t>(count));
+    CHECK(piece.x.front() == joined.x.back());
+    for (std::size_t i = 0; i < piece.steps(); ++i) {
+      joined.situation.push_back(piece.situation[i]);
+      joined.motion.push_back(piece.motion[i]);
+      joined.sef.push_back(piece.sef[i]);
+      joined.x.push_back(piece.x[i + 1]);
+    }
+  }
+  CHECK(joined.situation == record.situation);
+  CHECK(joined.motion == record.motion);
+  CHECK(joined.sef == record.sef);
+  CHECK(joined.x == record.x);
+
+  Record stepped;
+  stepped.begin_round(1, steps.pose());
+  for (int i = 0; i < 1000; ++i) stepped.append(steps.step());
+  CHECK(same(stepped, record));
+}
+
+TEST_CASE("asking for echoes or for interrupts does not change the history") {
+  const World world = shipped("clutter");
+  Trial plain(world, {}, 5), watched(world, {}, 5);
+  RunOptions options;
+  options.echoes = true;
+  options.interrupt = [] { return false; };
+  const Record record = plain.free_learning(800);
+  Record heard = watched.free_learning(800, options);
+  CHECK(heard.sonar_count == 5);
+  CHECK(heard.echoes.size() == 4000);
+  heard.echoes.clear();
+  CHECK(same(record, heard));
+}
+
+TEST_CASE("trials that take turns do not disturb each other") {
+  Trial alone(shipped("paper"), {}, 11), one(shipped("paper"), {}, 11),
+      other(shipped("clutter"), {}, 12);
+  const Record record = alone.free_learning(300);
+  Record turns;
+  turns.begin_round(1, one.pose());
+  for (int i = 0; i < 300; ++i) {
+    other.step();
+    turns.append(one.step());
+  }
+  CHECK(same(turns, record));
+}
+
+TEST_CASE("an interrupted run goes on as if nothing had been") {
+  const World world = shipped("paper");
+  Trial whole(world, {}, 9), stopped(world, {}, 9);
+  const Record record = whole.free_learning(2000);
+  RunOptions options;
+  int asked = 0;
+  options.interrupt = [&] { return ++asked == 20; };
+  const Record first = stopped.free_learning(2000, options);
+  CHECK(first.steps() > 0);
+  CHECK(first.steps() < 2000);
+  const Record rest = stopped.run(2000 - static_cast<std::int64_t>(first.steps()));
+  std::vector<int> motions(first.motion.begin(), first.motion.end());
+  motions.insert(motions.end(), rest.motion.begin(), rest.motion.end());
+  CHECK(std::equal(motions.begin(), motions.end(), record.motion.begin(), record.motion.end()));
+  CHECK(rest.x.back() == record.x.back());
+  CHECK(rest.round.back() == 1);
+}
+
+TEST_CASE("rounds without a step can be interrupted, too") {
+  WorldDef def;
+  def.target = {def.start.x, def.start.y};
+  Trial trial(World(def), {}, 1);
+  RunOptions options;
+  int asked = 0;
+  options.interrupt = [&] { return ++asked == 20; };
+  CHECK(trial.path_learning(1 << 30, 10, options).rounds.size() == 20);
+}
+
+// --- what a record says --------------------------------------------------------------------------
+
+TEST_CASE("every column follows from the poses, the world and the learner's laws") {
+  for (const bool sonar : {false, true}) {
+    CAPTURE(sonar);
+    const World world = shipped("paper");
+    const TrialConfig config = sonar ? sonar_config() : TrialConfig{};
+    Trial trial(world, config, 4);
+    RunOptions options;
+    options.echoes = true;
+    const Record record = trial.free_learning(2000, options);
+    const Robot robot(world, config.robot);
+    std::int64_t wrong = 0, explored = 0, effective = 0;
+    double sef_before = 0.0;
+    const auto state = [&](std::size_t pose, double& distance, double& clearance) {
+      distance =
+          std::hypot(record.x[pose] - world.def().target.x, record.y[pose] - world.def().target.y);
+      clearance = world.clearance({record.x[pose], record.y[pose]});
+      if (sonar) {
+        const auto echoes = robot.sonar({record.x[pose], record.y[pose], record.heading[pose]});
+        clearance = *std::min_element(echoes.begin(), echoes.end()) + config.robot.radius;
+      }
+      return config.evaluation(distance, clearance);
+    };
+    double distance = 0.0, clearance = 0.0;
+    sef_before = state(0, distance, clearance);
+    for (std::size_t i = 0; i < record.steps(); ++i) {
+      const Pose before{record.x[i], record.y[i], record.heading[i]};
+      const Pose after{record.x[i + 1], record.y[i + 1], record.heading[i + 1]};
+      const Robot::Step step = robot.step(before, record.motion[i]);
+      wrong += step.pose != after || step.collided != static_cast<bool>(record.collided[i]);
+      wrong += record.situation[i] != trial.grid().situation(before.x, before.y, before.heading);
+      const double sef = state(i + 1, distance, clearance);
+      wrong += std::abs(record.goal_distance[i] - distance) > 1e-12;
+      wrong += record.clearance[i] != clearance;
+      wrong += std::abs(record.sef[i] - sef) > 1e-12;
+      wrong += record.smf[i] != record.sef[i] - sef_before;
+      wrong +=
+          record.smf_used[i] != (step.collided ? std::min(record.smf[i], -1.0) : record.smf[i]);
+      wrong += record.arrived[i] != (record.goal_distance[i] <= config.goal_radius);
+      const auto event = static_cast<Event>(record.event[i]);
+      const auto kind = static_cast<Kind>(record.kind[i]);
+      explored += kind == Kind::kExplore;
+      effective += event == Event::kExtension;
+      effective -= record.reduced[i] + (event == Event::kAbandonment);
+      wrong += record.explored_count[i] != explored || record.effective_count[i] != effective;
+      const std::vector<double> echoes = robot.sonar(after);
+      wrong += !std::equal(echoes.begin(), echoes.end(), record.echoes.begin() + 5 * i);
+      sef_before = record.sef[i];
+    }
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("free rounds are numbered 1 and 2, path learning's from 3") {
+  Trial trial(shipped("paper"), {}, 2);
+  CHECK(trial.round() == 0);
+  const Record record = whole_history(trial, 200);
+  REQUIRE(record.rounds.size() == 22);
+  for (std::size_t i = 0; i < 22; ++i) CHECK(record.rounds[i].round == static_cast<int>(i) + 1);
+  CHECK(trial.round() == 22);
+  CHECK(trial.run(5).rounds.front().round == 22);
+  trial.place({2.0, 1.5, 90.0});
+  CHECK(trial.round() == 23);
+}
+
+TEST_CASE("a round of path learning begins at the start and ends where it arrives, or fails") {
+  const World world = shipped("empty");
+  Trial trial(world, {}, 2);
+  trial.free_learning(3000);
+  const Record record = trial.path_learning(60, 300);
+  REQUIRE(record.rounds.size() == 60);
+  std::size_t step = 0;
+  int arrived = 0;
+  for (std::size_t i = 0; i < 60; ++i) {
+    const Round& round = record.rounds[i];
+    const Pose start = world.def().start;
+    CHECK(Pose{record.x[step + i], record.y[step + i], record.heading[step + i]} == start);
+    for (std::int64_t n = 0; n < round.steps; ++n, ++step) {
+      const bool last = n + 1 == round.steps;
+      CHECK(static_cast<bool>(record.arrived[step]) == (last && round.arrived));
+    }
+    if (!round.arrived) CHECK(round.steps == 300);
+    arrived += round.arrived;
+  }
+  CHECK(arrived > 0);
+  CHECK(arrived < 60);
+}
+
+TEST_CASE("a round of path learning that begins at the target has no step and has arrived") {
+  WorldDef def;
+  def.target = {def.start.x, def.start.y};
+  Trial trial(World(def), {}, 1);
+  CHECK(trial.arrived());
+  const Record record = trial.path_learning(3);
+  CHECK(record.steps() == 0);
+  REQUIRE(record.rounds.size() == 3);
+  for (const Round& round : record.rounds) {
+    CHECK(round.steps == 0);
+    CHECK(round.arrived);
+  }
+  CHECK(record.x == std::vector<double>(3, def.start.x));
+  CHECK(trial.free_learning(10).steps() == 10);  // where reaching the target ends nothing
+}
+
+// --- agents --------------------------------------------------------------------------------------
+
+TEST_CASE("a shared learner goes on from trial to trial") {
+  const auto learner = std::make_shared<Learner>(LearnerConfig{}, 6);
+  const auto agent = std::make_shared<LearnerAgent>(learner);
+  Trial first(shipped("paper"), {}, 0, agent), second(shipped("paper"), {}, 0, agent);
+  first.free_learning(500);
+  const auto explored = learner->explored_count();
+  CHECK(explored > 0);
+  const Record record = second.free_learning(500);
+  CHECK(record.explored_count.front() >= explored);
+  CHECK(second.learner() == learner);
+  // The trial's seed draws nothing where the agent is given.
+  Trial own(shipped("paper"), {}, 6);
+  CHECK(own.free_learning(500).motion ==
+        Trial(shipped("paper"), {}, 99,
+              std::make_shared<LearnerAgent>(std::make_shared<Learner>(LearnerConfig{}, 6)))
+            .free_learning(500)
+            .motion);
+}
+
+TEST_CASE("an agent is told before each choice and after each motion what the record says") {
+  const auto agent = std::make_shared<Scripted>();
+  std::vector<Observation> asked;
+  std::vector<Outcome> told;
+  agent->choosing = [&](const Observation& observation) {
+    asked.push_back(observation);
+    return Choice{static_cast<int>(asked.size() * 7 % 5), Kind::kExploit};
+  };
+  agent->observing = [&](const Outcome& outcome) { told.push_back(outcome); };
+  Trial trial(shipped("paper"), {}, 0, agent);
+  const Record record = trial.free_learning(400);
+  for (std::size_t i = 0; i < 400; ++i) {
+    CHECK(asked[i].situation == record.situation[i]);
+    CHECK(asked[i].pose == Pose{record.x[i], record.y[i], record.heading[i]});
+    CHECK(asked[i].motion_count == 5);
+    if (i > 0) CHECK(asked[i].sef == record.sef[i - 1]);
+    if (i > 0) CHECK(asked[i].clearance == record.clearance[i - 1]);
+    if (i > 0) CHECK(asked[i].goal_distance == record.goal_distance[i - 1]);
+    if (i + 1 < 400) CHECK(told[i].situation == record.situation[i + 1]);
+    CHECK(told[i].sef == record.sef[i]);
+    CHECK(told[i].smf == record.smf_used[i]);
+    CHECK(told[i].collided == static_cast<bool>(record.collided[i]));
+    CHECK(told[i].arrived == static_cast<bool>(record.arrived[i]));
+    CHECK(record.kind[i] == static_cast<int>(Kind::kExploit));
+    CHECK(record.explored_count[i] == 0);
+  }
+  CHECK(trial.learner() == nullptr);
+}
+
+TEST_CASE("where an agent throws, the trial is left as it was and what is finished is kept") {
+  for (const bool in_choice : {true, false}) {
+    const auto agent = std::make_shared<Scripted>();
+    const auto fail = [&](int done) {
+      if (done == 7) throw std::runtime_error("no more");
+    };
+    agent->choosing = [&](const Observation&) {
+      if (in_choice) fail(agent->observed);
+      return Choice{3, Kind::kUnstated};
+    };
+    agent->observing = [&](const Outcome&) {
+      if (!in_choice) fail(agent->observed);
+    };
+    Trial trial(shipped("paper"), {}, 0, agent);
+    Record record;
+    CHECK_THROWS_AS(trial.run(record, 100), std::runtime_error);
+    CHECK(record.steps() == 7);
+    CHECK(record.x.size() == 8);
+    CHECK(trial.pose() == Pose{record.x.back(), record.y.back(), record.heading.back()});
+    CHECK_THROWS_AS(trial.step(), std::runtime_error);
+    CHECK(trial.pose() == Pose{record.x.back(), record.y.back(), record.heading.back()});
+    CHECK(trial.round() == 1);
+    agent->observed = 8;
+    CHECK(trial.step().round == 1);
+  }
+  const auto agent = std::make_shared<Scripted>();
+  agent->choosing = [](const Observation&) -> Choice { throw std::runtime_error("never"); };
+  Trial trial(shipped("paper"), {}, 0, agent);
+  CHECK_THROWS_AS(trial.step(), std::runtime_error);
+  CHECK(trial.round() == 0);
+}
+
+TEST_CASE("a motion outside M is refused by name, and its agent told that it was not executed") {
+  for (const int motion : {-1, 5, 1 << 30}) {
+    const auto agent = std::make_shared<Scripted>();
+    agent->choosing = [&](const Observation&) { return Choice{motion, Kind::kUnstated}; };
+    Trial trial(shipped("paper"), {}, 0, agent);
+    check_refused([&] { trial.step(); }, "agent's motion", std::to_string(motion));
+    CHECK(agent->cancelled == 1);
+    CHECK(agent->observed == 0);
+    CHECK(trial.pose() == trial.world().def().start);
+    CHECK(trial.round() == 0);
+  }
+}
+
+TEST_CASE("an agent that moves its own trial is refused, whatever it calls") {
+  const auto agent = std::make_shared<Scripted>();
+  Trial trial(shipped("paper"), {}, 0, agent);
+  for (const std::function<void()>& call : std::vector<std::function<void()>>{
+           [&] { trial.step(); }, [&] { trial.run(1); }, [&] { trial.free_learning(1); },
+           [&] { trial.path_learning(1); }, [&] { trial.begin_round(); },
+           [&] {
+             trial.place({2.0, 1.5, 0.0});
+           }}) {
+    agent->observing = [&](const Outcome&) { call(); };
+    check_refused([&] { trial.step(); }, "Trial", "a call while another is under way");
+    check_refused([&] { trial.free_learning(5); }, "Trial", "a call while another is under way");
+    CHECK(trial.pose() == trial.world().def().start);
+  }
+  agent->observing = [](const Outcome&) {};
+  CHECK(trial.run(3).steps() == 3);
+}
+
+TEST_CASE("random motions are uniform, seeded, and learn nothing") {
+  const auto history = [](std::uint64_t seed) {
+    return Trial(shipped("paper"), {}, 0, std::make_shared<RandomAgent>(seed)).free_learning(5000);
+  };
+  const Record record = history(1);
+  CHECK(record.motion == history(1).motion);
+  CHECK(record.motion != history(2).motion);
+  double chi_square = 0.0;
+  for (int motion = 0; motion < 5; ++motion) {
+    const auto count =
+        static_cast<double>(std::count(record.motion.begin(), record.motion.end(), motion));
+    chi_square += (count - 1000.0) * (count - 1000.0) / 1000.0;
+  }
+  CHECK(chi_square < 18.47);  // 99.9 % of four degrees of freedom
+  CHECK(record.explored_count.back() == 0);
+  CHECK(record.kind.back() == static_cast<int>(Kind::kUnstated));
+}
+
+// --- refusals ------------------------------------------------------------------------------------
+
+TEST_CASE("a configuration out of range is refused by the name of its field") {
+  const auto refused = [](auto change, const char* quantity, const char* value) {
+    TrialConfig config;
+    change(config);
+    check_refused([&] { config.validate(); }, quantity, value);
+    check_refused([&] { Trial(World{}, config); }, quantity, value);
+  };
+  refused([](TrialConfig& c) { c.goal_radius = 0.0; }, "TrialConfig.goal_radius", "0");
+  refused([](TrialConfig& c) { c.goal_radius = 101.0; }, "TrialConfig.goal_radius", "101");
+  refused([](TrialConfig& c) { c.goal_radius = std::nan(""); }, "TrialConfig.goal_radius", "nan");
+  refused([](TrialConfig& c) { c.cell_size = 0.0005; }, "TrialConfig.cell_size", "5e-04");
+  refused([](TrialConfig& c) { c.cell_size = 1001.0; }, "TrialConfig.cell_size", "1001");
+  refused([](TrialConfig& c) { c.heading_bins = 0; }, "TrialConfig.heading_bins", "0");
+  refused([](TrialConfig& c) { c.heading_bins = 3601; }, "TrialConfig.heading_bins", "3601");
+  refused([](TrialConfig& c) { c.learner.eta = 1.0; }, "LearnerConfig.eta", "1");
+  refused([](TrialConfig& c) { c.evaluation.a2 = -1.0; }, "StateEvaluation.a2", "-1");
+  refused([](TrialConfig& c) { c.learner.motion_count = 4; }, "TrialConfig.learner.motion_count",
+          "4");
+  refused([](TrialConfig& c) { c.clearance_source = ClearanceSource::kSonar; },
+          "TrialConfig.walls_count", "false with clearance_source sonar");
+  refused(
+      [](TrialConfig& c) {
+        c = sonar_config();
+        c.robot.sonar_count = 0;
+      },
+      "TrialConfig.robot.sonar_count with clearance_source sonar", "0");
+}
+
+TEST_CASE("configurations are equal when every field is") {
+  const TrialConfig config;
+  CHECK(config == TrialConfig::paper());
+  CHECK(config != TrialConfig::step5());
+  CHECK(TrialConfig::step5().learner == LearnerConfig::step5());
+  const auto differs = [&](auto change) {
+    TrialConfig other;
+    change(other);
+    CHECK(other != config);
+  };
+  differs([](TrialConfig& c) { c.learner.eta = 0.1; });
+  differs([](TrialConfig& c) { c.evaluation.a1 = 1.0; });
+  differs([](TrialConfig& c) { c.robot.speed = 0.2; });
+  differs([](TrialConfig& c) { c.clearance_source = ClearanceSource::kSonar; });
+  differs([](TrialConfig& c) { c.walls_count = true; });
+  differs([](TrialConfig& c) { c.goal_radius = 0.2; });
+  differs([](TrialConfig& c) { c.cell_size = 0.2; });
+  differs([](TrialConfig& c) { c.heading_bins = 6; });
+}
+
+TEST_CASE("a trial refuses what it cannot begin with") {
+  check_refused([] { Trial(World{}, {}, 0, nullptr); }, "Trial.agent", "null");
+  check_refused([] { LearnerAgent(nullptr); }, "LearnerAgent.learner", "null");
+  LearnerConfig four;
+  four.motion_count = 4;
+  check_refused(
+      [&] {
+        Trial(World{}, {}, 0, std::make_shared<LearnerAgent>(std::make_shared<Learner>(four)));
+      },
+      "Trial.agent.config.motion_count", "4");
+  WorldDef tight;  // a start that is a place, but not one for the body
+  tight.start = {0.05, 0.5, 0.0};
+  check_refused([&] { Trial{World(tight)}; }, "start", "a place 0.05 m from the nearest surface");
+}
+
+TEST_CASE("a trial refuses lengths out of range and places that do not fit, and stays as it was") {
+  Trial trial(shipped("paper"), {}, 1);
+  trial.run(50);
+  const Pose pose = trial.pose();
+  Record record;
+  check_refused([&] { trial.run(record, -1); }, "steps", "-1");
+  check_refused([&] { trial.free_learning(record, (std::int64_t{1} << 40) + 1); }, "steps",
+                "1099511627777");
+  check_refused([&] { trial.path_learning(record, -1, 10); }, "rounds", "-1");
+  check_refused([&] { trial.path_learning(record, (1 << 30) + 1, 10); }, "rounds", "1073741825");
+  check_refused([&] { trial.path_learning(record, 1, 0); }, "step_limit", "0");
+  check_refused(
+      [&] {
+        trial.place({1.3, 1.4, 0.0});
+      },
+      "pose", "a place 0 m from the nearest surface");
+  check_refused([&] { trial.place({-1.0, 1.4, 0.0}); }, "pose.x", "-1");
+  check_refused([&] { trial.place({2.0, 1.5, std::nan("")}); }, "pose.heading", "nan");
+  CHECK(record.steps() == 0);
+  CHECK(record.rounds.empty());
+  CHECK(trial.pose() == pose);
+  CHECK(trial.round() == 1);
+}
+
+TEST_CASE("the grid covers the arena with cells of the size asked for, whatever its sides") {
+  for (const double side : {0.5, 1.1, 4.9999, 5.0, 5.0001, 12.3}) {
+    for (const double cell : {0.25, 0.1, 0.3, 7.0}) {
+      WorldDef def;
+      def.width = def.height = side;
+      def.start = {side / 2, side / 2, 0.0};
+      def.target = def.start.x < 1.0 ? Point{0.2, 0.2} : Point{1.0, 1.0};
+      TrialConfig config;
+      config.cell_size = cell;
+      const Trial trial(World(def), config);
+      const SituationGrid& grid = trial.grid();
+      CHECK(grid.width() >= side);
+      CHECK(grid.width() < side + cell + 1e-9);
+      if (cell < side) CHECK(grid.width() / grid.columns() == doctest::Approx(cell).epsilon(1e-4));
+      CHECK(grid.situation(side, side, 0.0) >= 0);
+    }
+  }
+}
