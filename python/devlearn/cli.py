@@ -6,7 +6,7 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from ._core import Trial, TrialConfig
     from .record import Record
 
+_WITHOUT_PLOTS = "no figures: {}; pip install 'devlearn[plots]' brings what they need"
 _RUN_EPILOG = """\
 examples:
   devlearn run paper
@@ -29,14 +30,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from .errors import InvalidValue
 
     try:
-        return int(options.verb(options))
-    except InvalidValue as error:
+        code = int(options.verb(options))
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:  # who read the output has left, as `head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except (InvalidValue, OSError) as error:
         print(f"devlearn: {error}", file=sys.stderr)
         return 1
     except ImportError as error:
         if "matplotlib" not in str(error):
             raise
-        print(f"devlearn: {error}", file=sys.stderr)
+        print(f"devlearn: {_WITHOUT_PLOTS.format(error)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("devlearn: stopped", file=sys.stderr)
@@ -160,25 +166,23 @@ def _say(text: str) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     from . import _core, experiments, measures
-    from .errors import FileError
+    from .errors import InvalidValue
     from .record import written_aside
+    from .runs import made_folder
 
+    # At once, not when they are needed.
+    for name, least in (("steps", 0), ("rounds", 0), ("step_limit", 1)):
+        if getattr(options, name) < least:
+            option = "--" + name.replace("_", "-")
+            raise InvalidValue(option, getattr(options, name), f"at least {least}")
     world = _core.World.load(options.world)
     config = experiments.preset(options.preset)
     if options.config is not None:
-        try:
-            fields = json.loads(Path(options.config).read_text(encoding="utf-8"))
-        except (OSError, ValueError) as error:
-            raise FileError(options.config, "", error, "a TrialConfig as JSON") from error
-        config = _core.TrialConfig.from_dict(fields)
+        config = _read_config(options.config)
     config = _changed(config, options.set)
 
     trial = _core.Trial(world, config, options.seed)
-    folder = Path(options.output)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise FileError(options.output, "", error.strerror, "a folder that can be made") from error
+    folder = made_folder(options.output)
     records: dict[str, Record] = {}
 
     def write() -> None:
@@ -231,9 +235,27 @@ def _draw(folder: Path, trial: Trial, paths: Record) -> None:
         from .figures import draw_run
         from .reproduce import save_figure
     except ImportError as error:
-        print(f"no picture: {error}", file=sys.stderr)
+        print(_WITHOUT_PLOTS.format(error), file=sys.stderr)
         return
     save_figure(folder, draw_run(trial, paths))
+
+
+def _read_config(path: str) -> TrialConfig:
+    from ._core import TrialConfig
+    from .errors import FileError, InvalidValue
+
+    allowed = "a TrialConfig as JSON"
+    try:
+        fields = json.loads(Path(path).read_text(encoding="utf-8"))
+        return TrialConfig.from_dict(fields)
+    except InvalidValue as error:
+        raise FileError(path, error.quantity, error.value, error.allowed) from error
+    except TypeError as error:
+        raise FileError(path, "", "a value of another type", allowed) from error
+    except OSError as error:
+        raise FileError(path, "", error.strerror, allowed) from error
+    except (ValueError, RecursionError) as error:
+        raise FileError(path, "", error, allowed) from error
 
 
 def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
@@ -247,7 +269,8 @@ def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
         for part in outer:
             place = place.get(part) if isinstance(place, dict) else None
         if not equals or not isinstance(place, dict) or last not in place:
-            raise InvalidValue("--set", change, "FIELD=VALUE with a field such as learner.sigma")
+            known = ", ".join(_names(config.to_dict()))
+            raise InvalidValue("--set", repr(change), f"FIELD=VALUE, where FIELD is one of {known}")
         try:
             place[last] = json.loads(text)
         except ValueError:
@@ -255,7 +278,16 @@ def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
     try:
         return config.from_dict(fields)
     except TypeError as error:
-        raise InvalidValue("--set", " ".join(changes), "values of each field's type") from error
+        allowed = "a value of each field's type, such as 0.5, true or [1, 2]"
+        raise InvalidValue("--set", repr(" ".join(changes)), allowed) from error
+
+
+def _names(fields: Mapping[str, Any], outer: str = "") -> Iterator[str]:
+    for name, value in fields.items():
+        if isinstance(value, dict):
+            yield from _names(value, f"{outer}{name}.")
+        else:
+            yield outer + name
 
 
 if __name__ == "__main__":

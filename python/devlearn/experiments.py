@@ -79,8 +79,8 @@ def run(
 ) -> Run:
     """Two rounds of free learning, then path learning of up to ``rounds`` rounds.
 
-    Path learning ends early after 20 rounds in a row that never arrived: a robot that is trapped
-    stays so.
+    Path learning goes by 20 rounds, and ends early after 20 that never arrived: a robot that is
+    trapped stays so.
     """
     trial = Trial(world, config, seed, agent)
     first, second = trial.free_learning(free_steps), trial.free_learning(free_steps)
@@ -260,12 +260,12 @@ def new_starts(world: World, config: TrialConfig, count: int = 8) -> list[tuple[
     """New start poses for the learning-ability test, each with the steps of its shortest path.
 
     Uniform over the places with 0.05 m of room, at least 1.5 m from target and start, on headings
-    of the grid; the same for a world at every call.
+    of the grid; the same for a world at every call. Raises InvalidValue for a world without room.
     """
     random = Random(0, "starts")
     robot = Robot(world, config.robot)
     starts: list[tuple[Pose, int]] = []
-    while len(starts) < count:
+    for _ in range(1000 * count):
         x, y = random.uniform() * world.width, random.uniform() * world.height
         heading = random.index(config.heading_bins) * 360.0 / config.heading_bins
         if world.clearance(x, y, walls_count=True) < config.robot.radius + 0.05:
@@ -275,7 +275,9 @@ def new_starts(world: World, config: TrialConfig, count: int = 8) -> list[tuple[
         way = shortest_path(robot, (x, y, heading), config.goal_radius)
         if len(way) > 1:
             starts.append((Pose(x, y, heading), len(way) - 1))
-    return starts
+            if len(starts) == count:
+                return starts
+    raise InvalidValue("world", f"{len(starts)} new starts", f"room for {count}, far from target")
 
 
 def similar_world(index: int) -> World:

@@ -19,7 +19,7 @@ from .errors import InvalidValue
 from .experiments import Measures
 from .record import provenance_of, written_aside
 from .report import write_report
-from .runs import Journal, run_all
+from .runs import Journal, made_folder, run_all
 
 Say = Callable[[str], None]
 
@@ -101,7 +101,7 @@ def draw_figure(output: str | os.PathLike[str], number: int) -> list[Path]:
 
 def save_figure(folder: Path, drawn: figures.Drawn) -> list[Path]:
     """Write a figure as PNG and SVG. Raises FileError."""
-    folder.mkdir(parents=True, exist_ok=True)
+    made_folder(folder)
     paths = [folder / f"{drawn.name}.{kind}" for kind in ("png", "svg")]
     for path in paths:
         # No date: the same figure is the same file.

@@ -9,9 +9,11 @@ import multiprocessing
 import os
 import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -72,8 +74,8 @@ class Journal:
         self._path = path
         self._code = code_fingerprint()
         self._found: dict[str, Result] = {}
+        made_folder(path.parent)
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
             if path.exists():
                 self._read(path.read_bytes())
             self._file = path.open("ab")
@@ -113,6 +115,19 @@ class Journal:
         self._file.close()
 
 
+def made_folder(path: str | os.PathLike[str]) -> Path:
+    """The folder, made where it is missing. Raises FileError where nothing can be put into it."""
+    folder = Path(path)
+    allowed = "a folder that can be made and written to"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError(str(folder), "", error.strerror, allowed) from error
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise FileError(str(folder), "", "no permission to write", allowed)
+    return folder
+
+
 def code_fingerprint() -> str:
     """A hash of all code that a result depends on."""
     digest = hashlib.sha256()
@@ -146,9 +161,26 @@ def run_all(
     return [result for result in results if result is not None]
 
 
-def _ignore_interrupts() -> None:
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
     # Ctrl-C reaches every process of a terminal; the parent alone decides what becomes of it.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Processes started meanwhile hold it for good, from their first instruction on.
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+
+    def watch() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _completed(
@@ -162,22 +194,25 @@ def _completed(
     # Processes, not threads: Box2D keeps global counters. Spawned, so that they inherit nothing.
     context = multiprocessing.get_context("spawn")
     executor = ProcessPoolExecutor(
-        min(workers, len(remaining)), mp_context=context, initializer=_ignore_interrupts
+        min(workers, len(remaining)), mp_context=context, initializer=_end_with_parent
     )
+    others = multiprocessing.active_children()
     try:
         # Few at a time: what is queued need not be undone when someone stops.
         running: dict[Future[Result], int] = {}
         queue = iter(remaining)
         while True:
-            for i in itertools.islice(queue, 2 * workers - len(running)):
-                running[executor.submit(function, jobs[i])] = i
+            with _interrupts_held():
+                for i in itertools.islice(queue, 2 * workers - len(running)):
+                    running[executor.submit(function, jobs[i])] = i
             if not running:
                 break
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 yield running.pop(future), future.result()
     except BaseException:
         for process in multiprocessing.active_children():
-            process.terminate()
+            if process not in others:
+                process.terminate()
         executor.shutdown(wait=False, cancel_futures=True)
         raise
     executor.shutdown()
