@@ -207,7 +207,9 @@ def _completed(
                     running[executor.submit(function, jobs[i])] = i
             if not running:
                 break
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
+            done = wait(running, return_when=FIRST_COMPLETED).done
+            # One that failed ends it all, so after those that are there to be kept.
+            for future in sorted(done, key=lambda future: future.exception() is not None):
                 yield running.pop(future), future.result()
     except BaseException:
         for process in multiprocessing.active_children():
