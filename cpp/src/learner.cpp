@@ -1,6 +1,8 @@
 #include "devlearn/learner.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <string>
 
 #include "devlearn/error.hpp"
@@ -28,6 +30,84 @@ std::uint64_t scattered(SituationId situation) noexcept {
 void require_situation(SituationId situation) {
   if (situation < 0) {
     throw InvalidValue("situation", std::to_string(situation), "a whole number in [0, 2^63 - 1]");
+  }
+}
+
+[[noreturn]] void refuse_memory(const char* quantity, std::size_t i, const std::string& value,
+                                const char* allowed) {
+  throw InvalidValue("memory." + std::string(quantity) + "[" + std::to_string(i) + "]", value,
+                     allowed);
+}
+
+void require_size(const char* quantity, std::size_t size, std::size_t expected) {
+  if (size != expected) {
+    throw InvalidValue("memory." + std::string(quantity), std::to_string(size) + " values",
+                       std::to_string(expected) + " values");
+  }
+}
+
+// The laws of one situation's lists: they partition M, and what is unexplored is ascending.
+void require_partition(const LearnerMemory& all, std::size_t i, int motion_count,
+                       std::vector<bool>& seen) {
+  const int n = all.effective_count[i], tried = n + all.ineffective_count[i];
+  if (tried > motion_count) {
+    refuse_memory("ineffective_count", i, std::to_string(all.ineffective_count[i]),
+                  "no more than motion_count less the effective ones");
+  }
+  const std::uint16_t* motions = &all.motions[i * motion_count];
+  std::fill(seen.begin(), seen.end(), false);
+  for (int j = 0; j < motion_count; ++j) {
+    if (motions[j] >= motion_count || seen[motions[j]]) {
+      refuse_memory("motions", i, std::to_string(motions[j]), "each motion of M once");
+    }
+    seen[motions[j]] = true;
+    if (j > tried && motions[j] < motions[j - 1]) {
+      refuse_memory("motions", i, std::to_string(motions[j]), "unexplored motions ascending");
+    }
+  }
+}
+
+void require_orientations(const LearnerMemory& all, std::size_t i, std::size_t first) {
+  double sum = 0.0;
+  for (std::size_t j = first; j < first + all.effective_count[i]; ++j) {
+    require_in("memory.orientation[" + std::to_string(j) + "]", all.orientation[j], 0.0, 1.0);
+    if (all.times_learned[j] < 1) refuse_memory("times_learned", j, "0", "at least 1");
+    sum += all.orientation[j];
+  }
+  if (all.effective_count[i] > 0 && !(std::abs(sum - 1.0) <= 1e-9)) {
+    refuse_memory("orientation", first, "a sum of " + to_text(sum),
+                  "a sum of 1 within 1e-9 in each situation");
+  }
+}
+
+void require_laws(const LearnerState& state) {
+  const LearnerMemory& all = state.memory;
+  const int motion_count = state.config.motion_count;
+  const std::size_t situations = all.situation.size();
+  require_size("effective_count", all.effective_count.size(), situations);
+  require_size("ineffective_count", all.ineffective_count.size(), situations);
+  require_size("motions", all.motions.size(), situations * motion_count);
+  const auto effective =
+      std::accumulate(all.effective_count.begin(), all.effective_count.end(), std::size_t{0});
+  require_size("orientation", all.orientation.size(), effective);
+  require_size("times_learned", all.times_learned.size(), effective);
+
+  std::vector<bool> seen(static_cast<std::size_t>(motion_count));
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < situations; ++i) {
+    if (all.situation[i] < 0) {
+      refuse_memory("situation", i, std::to_string(all.situation[i]), "at least 0");
+    }
+    require_partition(all, i, motion_count, seen);
+    require_orientations(all, i, first);
+    first += all.effective_count[i];
+  }
+  if (state.random == Random::State{}) {
+    throw InvalidValue("random", "all zeros", "a state of the generator");
+  }
+  if (state.pending) {
+    require_count("pending.motion", state.pending->choice.motion, 0, motion_count - 1);
+    require_count("pending.kind", static_cast<int>(state.pending->choice.kind), 0, 2);
   }
 }
 
@@ -61,6 +141,34 @@ Learner::Learner(const LearnerConfig& config, std::uint64_t seed)
       random_(seed, "agent"),
       buckets_(buckets_for(0), kAbsent),
       bytes_per_situation_(MotorMemory::bytes(config.motion_count)) {}
+
+Learner::Learner(const LearnerState& state) : Learner(state.config, state.seed) {
+  require_laws(state);
+  random_ = Random(state.random);
+  const LearnerMemory& all = state.memory;
+  reserve(all.situation.size());
+  const double* orientation = all.orientation.data();
+  const std::uint32_t* times_learned = all.times_learned.data();
+  for (std::size_t i = 0; i < all.situation.size(); ++i) {
+    const std::uint32_t slot = find_or_add(all.situation[i]);
+    if (slot != i) refuse_memory("situation", i, std::to_string(all.situation[i]), "each id once");
+    const int n = all.effective_count[i], ineffective = all.ineffective_count[i];
+    memory(slot).assign(&all.motions[i * config_.motion_count], n, ineffective, orientation,
+                        times_learned);
+    orientation += n;
+    times_learned += n;
+    effective_count_ += n;
+    explored_count_ += n + ineffective;
+  }
+  if (state.pending) {
+    pending_slot_ = find(state.pending->situation);
+    pending_choice_ = state.pending->choice;
+    if (pending_slot_ == kAbsent) {
+      throw InvalidValue("pending.situation", std::to_string(state.pending->situation),
+                         "a situation that was experienced");
+    }
+  }
+}
 
 Choice Learner::choose(SituationId situation) {
   require_situation(situation);
@@ -160,6 +268,27 @@ SituationMemory Learner::situation(SituationId situation) const {
 }
 
 std::vector<SituationId> Learner::situations() const { return ids_; }
+
+LearnerState Learner::state() const {
+  LearnerState state;
+  state.config = config_;
+  state.seed = seed_;
+  state.random = random_.state();
+  if (pending_slot_ != kAbsent) state.pending = {ids_[pending_slot_], pending_choice_};
+  LearnerMemory& all = state.memory;
+  all.situation = ids_;
+  all.effective_count.reserve(ids_.size());
+  all.ineffective_count.reserve(ids_.size());
+  all.motions.reserve(ids_.size() * config_.motion_count);
+  all.orientation.reserve(static_cast<std::size_t>(effective_count_));
+  all.times_learned.reserve(static_cast<std::size_t>(effective_count_));
+  for (std::uint32_t slot = 0; slot < ids_.size(); ++slot) {
+    memory(slot).append_to(all.motions, all.orientation, all.times_learned);
+    all.effective_count.push_back(static_cast<std::uint16_t>(memory(slot).effective_count()));
+    all.ineffective_count.push_back(static_cast<std::uint16_t>(memory(slot).ineffective_count()));
+  }
+  return state;
+}
 
 std::optional<Choice> Learner::pending() const noexcept {
   if (pending_slot_ == kAbsent) return std::nullopt;

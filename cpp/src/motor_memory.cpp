@@ -139,4 +139,21 @@ SituationMemory MotorMemory::copy() const {
           {times_learned_, times_learned_ + n}};
 }
 
+void MotorMemory::assign(const std::uint16_t* motions, int effective_count, int ineffective_count,
+                         const double* orientation, const std::uint32_t* times_learned) noexcept {
+  std::copy(motions, motions + motion_count_, motions_);
+  std::copy(orientation, orientation + effective_count, orientation_);
+  std::copy(times_learned, times_learned + effective_count, times_learned_);
+  *effective_count_ = static_cast<std::uint16_t>(effective_count);
+  *ineffective_count_ = static_cast<std::uint16_t>(ineffective_count);
+}
+
+void MotorMemory::append_to(std::vector<std::uint16_t>& motions, std::vector<double>& orientation,
+                            std::vector<std::uint32_t>& times_learned) const {
+  const int n = effective_count();
+  motions.insert(motions.end(), motions_, motions_ + motion_count_);
+  orientation.insert(orientation.end(), orientation_, orientation_ + n);
+  times_learned.insert(times_learned.end(), times_learned_, times_learned_ + n);
+}
+
 }  // namespace devlearn

@@ -1,13 +1,7 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -18,6 +12,7 @@
 
 #include "devlearn/error.hpp"
 #include "devlearn/world.hpp"
+#include "file.hpp"
 #include "world_text.hpp"
 
 namespace devlearn {
@@ -353,65 +348,6 @@ struct ObstacleText {
   }
 };
 
-// Where a file of this name lies: a link goes on pointing at it. A device must not be replaced.
-std::string place_of(const std::string& path) {
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (!std::filesystem::exists(status)) return path;
-  if (!std::filesystem::is_regular_file(status)) {
-    const char* what =
-        std::filesystem::is_directory(status) ? std::strerror(EISDIR) : "not a regular file";
-    throw FileError(path, "", what, "a file that can be written");
-  }
-  const std::filesystem::path place = std::filesystem::canonical(path, ignored);
-  return place.empty() ? path : place.string();
-}
-
-// A file on the side that either takes the place of `path` as a whole or goes away.
-class SideFile {
- public:
-  explicit SideFile(const std::string& path) : path_(path), place_(place_of(path)) {
-    static std::atomic<unsigned> count{0};
-    do {
-      side_ = place_ + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
-      descriptor_ = ::open(side_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (descriptor_ < 0 && errno == EEXIST);
-    if (descriptor_ < 0) refuse();
-  }
-  ~SideFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (!side_.empty()) ::unlink(side_.c_str());
-  }
-  SideFile(const SideFile&) = delete;
-  SideFile& operator=(const SideFile&) = delete;
-
-  void write(const std::string& text) {
-    std::size_t written = 0;
-    while (written < text.size()) {
-      const auto count = ::write(descriptor_, text.data() + written, text.size() - written);
-      if (count < 0 && errno != EINTR) refuse();
-      if (count > 0) written += static_cast<std::size_t>(count);
-    }
-  }
-
-  void commit() {
-    if (::fsync(descriptor_) != 0) refuse();
-    if (::close(std::exchange(descriptor_, -1)) != 0) refuse();
-    if (std::rename(side_.c_str(), place_.c_str()) != 0) refuse();
-    side_.clear();
-  }
-
- private:
-  // The destructor does not run where the constructor throws, but then there is no file either.
-  [[noreturn]] void refuse() const {
-    throw FileError(path_, "", std::strerror(errno), "a file that can be written");
-  }
-
-  const std::string& path_;
-  std::string place_, side_;
-  int descriptor_ = -1;
-};
-
 }  // namespace
 
 bool is_utf8(const std::string& text) {
@@ -460,8 +396,9 @@ std::string World::to_json() const {
 }
 
 void World::save(const std::string& path) const {
+  const std::string text = to_json();
   SideFile file(path);
-  file.write(to_json());
+  file.write(text.data(), text.size());
   file.commit();
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,21 @@ class RecordObject : public py::object {
  public:
   using py::object::object;
   explicit RecordObject(py::object record) : py::object(std::move(record)) {}
+};
+
+/// A turn at the simulator, without the GIL: other Python threads run meanwhile, but Box2D, with
+/// its global counters, serves one thread at a time. A thread may take a turn within its turn, as
+/// an agent does that listens to a sonar.
+class Turn {
+ public:
+  Turn() : turn_(mutex()) {}
+
+ private:
+  static std::recursive_mutex& mutex();
+
+  // In this order: whoever waits for a turn must not hold the GIL.
+  py::gil_scoped_release no_gil_;
+  std::lock_guard<std::recursive_mutex> turn_;
 };
 
 /// A path from Python as the system takes it: text, bytes or os.PathLike.

@@ -4,6 +4,21 @@
 
 namespace devlearn::python {
 
+namespace {
+
+// Whatever bytes a caller gave, a message comes of them.
+py::object as_text(const std::string& bytes) {
+  return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+      bytes.data(), static_cast<py::ssize_t>(bytes.size()), "backslashreplace"));
+}
+
+py::object as_path(const std::string& bytes) {
+  return py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeFSDefaultAndSize(bytes.data(), static_cast<py::ssize_t>(bytes.size())));
+}
+
+}  // namespace
+
 // The exception types live on the Python side, so that Python code raises the same ones.
 void bind_error(py::module_&) {
   py::register_local_exception_translator([](std::exception_ptr raised) {
@@ -14,11 +29,11 @@ void bind_error(py::module_&) {
     try {
       if (raised) std::rethrow_exception(raised);
     } catch (const FileError& error) {
-      const auto file = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(
-          error.file().data(), static_cast<py::ssize_t>(error.file().size())));
-      raise("FileError", file, error.field(), error.value(), error.allowed());
+      raise("FileError", as_path(error.file()), as_text(error.field()), as_text(error.value()),
+            as_text(error.allowed()));
     } catch (const InvalidValue& error) {
-      raise("InvalidValue", error.quantity(), error.value(), error.allowed());
+      raise("InvalidValue", as_text(error.quantity()), as_text(error.value()),
+            as_text(error.allowed()));
     }
   });
 }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "devlearn/snapshot.hpp"
 
 namespace devlearn::python {
 namespace {
@@ -28,6 +29,16 @@ WhenExhausted when_exhausted(const std::string& text) {
   if (text == "retry") return WhenExhausted::kRetry;
   if (text == "wander") return WhenExhausted::kWander;
   throw InvalidValue("LearnerConfig.when_exhausted", "'" + text + "'", "'retry' or 'wander'");
+}
+
+py::bytes snapshot_bytes(const Learner& learner) {
+  const std::vector<std::byte> bytes = to_bytes(learner);
+  return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+Learner from_bytes(const py::bytes& bytes) {
+  const std::string_view view = bytes;
+  return load_learner(reinterpret_cast<const std::byte*>(view.data()), view.size(), "bytes");
 }
 
 void bind_config(py::module_& m) {
@@ -160,7 +171,7 @@ void bind_learner(py::module_& m) {
       "    ...execute choice.motion...\n"
       "    learner.learn(smf)                      # SMF = SEF after - SEF before, Eq. 8\n\n"
       "The same configuration, seed and outcomes give the same history everywhere. copy.copy and\n"
-      "copy.deepcopy give independent learners that go on alike.")
+      "copy.deepcopy give independent learners that go on alike. One thread at a time.")
       .def(py::init([](const std::optional<LearnerConfig>& config, Whole<SeedTag> seed) {
              return std::make_shared<Learner>(config.value_or(LearnerConfig{}), seed.value);
            }),
@@ -207,6 +218,24 @@ void bind_learner(py::module_& m) {
           "reserve",
           [](Learner& self, Whole<ReserveTag> situations) { self.reserve(situations.value); },
           py::arg("situations"), "Makes room for so many situations in all.")
+      .def(
+          "save", [](const Learner& self, const py::object& path) { save(self, file_path(path)); },
+          py::arg("path"),
+          "Writes a snapshot (safetensors layout): to the side first, flushed, then renamed. "
+          "Raises "
+          "FileError.")
+      .def_static(
+          "load", [](const py::object& path) { return load_learner(file_path(path)); },
+          py::arg("path"),
+          "The learner in a snapshot; it goes on equal to the bit. Raises FileError, saying what "
+          "is "
+          "wrong with the file.")
+      .def("to_bytes", &snapshot_bytes, "The snapshot as bytes.")
+      .def_static("from_bytes", &from_bytes, py::arg("snapshot"),
+                  "The learner in a snapshot's bytes. Raises FileError.")
+      .def(py::pickle(
+          &snapshot_bytes,
+          [](const py::bytes& bytes) { return std::make_shared<Learner>(from_bytes(bytes)); }))
       .def("copy", copy, "An independent learner that goes on alike.")
       .def("__copy__", copy)
       .def(

@@ -80,7 +80,10 @@ void bind_robot(py::module_& m) {
       .def(
           "step",
           [](const Robot& self, const Pose& pose, Whole<MotionTag> motion) {
-            const Robot::Step step = self.step(pose, motion.value);
+            const Robot::Step step = [&] {
+              const Turn turn;
+              return self.step(pose, motion.value);
+            }();
             return std::make_pair(step.pose, step.collided);
           },
           py::arg("pose"), py::arg("motion"),
@@ -90,14 +93,23 @@ void bind_robot(py::module_& m) {
           "step_simulated",
           [](const Robot& self, const Pose& pose, Whole<MotionTag> motion,
              Whole<SubstepsTag> substeps) {
-            const Robot::Step step = self.step_simulated(pose, motion.value, substeps.value);
+            const Robot::Step step = [&] {
+              const Turn turn;
+              return self.step_simulated(pose, motion.value, substeps.value);
+            }();
             return std::make_pair(step.pose, step.collided);
           },
           py::arg("pose"), py::arg("motion"), py::arg("substeps") = 15,
           "The same with Box2D all the way, for comparison. Raises InvalidValue.")
       .def(
           "sonar",
-          [](const Robot& self, const Pose& pose) { return moved_array<double>(self.sonar(pose)); },
+          [](const Robot& self, const Pose& pose) {
+            std::vector<double> echoes = [&] {
+              const Turn turn;
+              return self.sonar(pose);
+            }();
+            return moved_array<double>(std::move(echoes));
+          },
           py::arg("pose"),
           "Echo distances from the body's rim, right to left [m]; sonar_range where nothing is "
           "heard. A float64 array of sonar_count values.")

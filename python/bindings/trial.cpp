@@ -51,6 +51,7 @@ class PythonAgent final : public Agent {
   }
 
   Choice choose(const Observation& observation) override {
+    const py::gil_scoped_acquire gil;
     const py::object chosen = agent_.attr("choose")(observation);
     if (py::isinstance<Choice>(chosen)) return chosen.cast<Choice>();
     if (!PyIndex_Check(chosen.ptr())) {
@@ -60,11 +61,13 @@ class PythonAgent final : public Agent {
   }
 
   Development observe(const Outcome& outcome) override {
+    const py::gil_scoped_acquire gil;
     const py::object result = agent_.attr("observe")(outcome);
     return py::isinstance<Development>(result) ? result.cast<Development>() : Development{};
   }
 
   void cancel() override {
+    const py::gil_scoped_acquire gil;
     if (py::hasattr(agent_, "cancel")) agent_.attr("cancel")();
   }
 
@@ -97,26 +100,25 @@ RecordObject as_record(const Trial& trial, Record&& record) {
                                              trial.config(), trial.seed(), agent_of(trial)));
 }
 
-/// Runs `phase(trial, record, options)`. Every 5 ms, between two steps, other threads get their
-/// turn and Ctrl-C is looked for; then, and where an agent raises, what is finished stays in
-/// `trial.interrupted`. The GIL is kept in between: another thread may hold the same learner, and
-/// Box2D bears one thread at a time.
+/// Runs `phase(trial, record, options)` without the GIL. Ctrl-C is looked for every 20 ms, between
+/// two steps; then, and where an agent raises, what is finished stays in `trial.interrupted`.
 template <typename Phase>
 RecordObject run_phase(py::object& self, bool echoes, const Phase& phase) {
   auto& trial = self.cast<Trial&>();
   using Clock = std::chrono::steady_clock;
-  constexpr auto kBetweenLooks = std::chrono::milliseconds(5);
+  constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
   Clock::time_point looked = Clock::now();
   bool stopped = false;
   const RunOptions options{echoes, [&] {
                              if (Clock::now() - looked < kBetweenLooks) return false;
-                             { const py::gil_scoped_release other_threads; }
+                             const py::gil_scoped_acquire gil;
                              stopped = PyErr_CheckSignals() != 0;
                              looked = Clock::now();
                              return stopped;
                            }};
   Record record;
   try {
+    const Turn turn;
     phase(trial, record, options);
   } catch (...) {
     if (!record.rounds.empty()) self.attr("interrupted") = as_record(trial, std::move(record));
@@ -231,7 +233,7 @@ void bind_trial(py::module_& m) {
           }),
           py::arg("world"), py::arg("config") = py::none(), py::arg("seed") = 0,
           py::arg("agent") = py::none())
-      .def("step", &Trial::step, "One tick of the loop.")
+      .def("step", &Trial::step, py::call_guard<Turn>(), "One tick of the loop.")
       .def(
           "run",
           [](py::object& self, Whole<StepsTag> steps, bool echoes) {
@@ -266,7 +268,8 @@ void bind_trial(py::module_& m) {
           py::arg("echoes") = false,
           "`rounds` new rounds from the start pose, each until the target is reached, or failed "
           "(arrived False) after `step_limit` steps.")
-      .def("begin_round", &Trial::begin_round, "Puts the robot at the start pose for a new round.")
+      .def("begin_round", &Trial::begin_round, py::call_guard<Turn>(),
+           "Puts the robot at the start pose for a new round.")
       .def(
           "place",
           [](Trial& self, double x, double y, double heading) {

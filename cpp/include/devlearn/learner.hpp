@@ -65,6 +65,32 @@ struct Development {
   int reduced = 0;  ///< motions that reduction development (Eq. 14-17) moved to M-bar_i
 };
 
+/// All that a learner remembers, as arrays: S situations in the order they were first experienced,
+/// N motions. E is the number of effective mappings, NUM_M.
+struct LearnerMemory {
+  std::vector<SituationId> situation;            ///< S ids
+  std::vector<std::uint16_t> effective_count;    ///< S: n_i
+  std::vector<std::uint16_t> ineffective_count;  ///< S: n-bar_i
+  std::vector<std::uint16_t> motions;  ///< S x N: of each situation M_i, then M-bar_i, then RM_i
+  std::vector<double> orientation;     ///< E: of each effective motion, situation by situation
+  std::vector<std::uint32_t> times_learned;  ///< E: likewise
+};
+
+/// A choice that waits for its outcome, and where it was made.
+struct PendingChoice {
+  SituationId situation = -1;
+  Choice choice;
+};
+
+/// Everything that a learner goes on from.
+struct LearnerState {
+  LearnerConfig config;
+  std::uint64_t seed = 0;
+  Random::State random{};  ///< of the stream "agent"
+  std::optional<PendingChoice> pending;
+  LearnerMemory memory;
+};
+
 /// The sensorimotor developmental learner: a situation in, a motion out; how good it was in, the
 /// lists develop. It knows no robot, grid or task.
 ///
@@ -83,6 +109,11 @@ class Learner {
  public:
   /// seed: of the stream "agent". Throws InvalidValue.
   explicit Learner(const LearnerConfig& config = {}, std::uint64_t seed = 0);
+
+  /// A learner that goes on from a state. Throws InvalidValue where the state breaks a law: lists
+  /// that do not partition M, unexplored motions out of order, orientations outside [0, 1] or whose
+  /// sum is not 1 within 1e-9, counts below 1, a situation twice, sizes that do not fit.
+  explicit Learner(const LearnerState& state);
 
   /// Step 3: chooses a motion for a situation >= 0. Throws InvalidValue for a negative situation
   /// or while an earlier choice waits for learn or cancel.
@@ -111,6 +142,9 @@ class Learner {
 
   /// Ids of the situations experienced, in the order they were first experienced.
   std::vector<SituationId> situations() const;
+
+  /// Everything it would go on from, as copies.
+  LearnerState state() const;
 
   /// Makes room for `situations` in all, so that up to then nothing is allocated. Throws
   /// InvalidValue for more than 2^32 - 2, std::bad_alloc where memory does not suffice.

@@ -79,6 +79,14 @@ class MotorMemory {
 
   SituationMemory copy() const;
 
+  /// Takes over lists and what belongs to them: motion_count motions, M_i first, then M-bar_i; and
+  /// effective_count orientations and counts. They are not checked.
+  void assign(const std::uint16_t* motions, int effective_count, int ineffective_count,
+              const double* orientation, const std::uint32_t* times_learned) noexcept;
+  /// The reverse: appends all motions, and the effective ones' orientations and counts.
+  void append_to(std::vector<std::uint16_t>& motions, std::vector<double>& orientation,
+                 std::vector<std::uint32_t>& times_learned) const;
+
  private:
   void remove_effective(int k) noexcept;
   void renormalise() noexcept;
