@@ -15,11 +15,15 @@ if TYPE_CHECKING:
     from .record import Record
 
 _WITHOUT_PLOTS = "no figures: {}; pip install 'devlearn[plots]' brings what they need"
+_RUN_DESCRIPTION = """\
+One experiment: two rounds of free learning, then path learning by rounds until
+the target is reached. Prints what came of it and writes the records, a table
+of the rounds and, with matplotlib, a picture."""
 _RUN_EPILOG = """\
 examples:
   devlearn run paper
   devlearn run office --seed 7 --rounds 200 --output out/office
-  devlearn run my_world.json --preset step5 --set learner.sigma=0.5 --set walls_count=true
+  devlearn run my_world.json --preset step5 --set learner.sigma=0.5
 """
 
 
@@ -75,26 +79,28 @@ def _parser() -> argparse.ArgumentParser:
         "--workers", type=int, metavar="N", help="how many processes (default: one a core)"
     )
     reproduce.add_argument(
-        "--output", default="out/reproduce", metavar="DIR", help="default: %(default)s"
-    )
+        "--output", default="out/reproduce", metavar="DIR",
+        help="folder to write (default: %(default)s)",
+    )  # fmt: skip
     reproduce.set_defaults(verb=_reproduce)
 
     run = verbs.add_parser(
         "run",
         help="run one experiment in any world",
-        description="One experiment: two rounds of free learning, then path learning by rounds "
-        "until the target is reached. Prints what came of it and writes the records, a table of "
-        "the rounds and, with matplotlib, a picture.",
+        description=_RUN_DESCRIPTION,
         epilog=_RUN_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     run.add_argument("world", help=f"a world file, or one that ships: {', '.join(_shipped())}")
-    run.add_argument("--preset", default="paper", help="paper (default) or step5")
+    run.add_argument("--preset", default="paper", metavar="NAME", help="paper (default) or step5")
     run.add_argument("--config", metavar="FILE", help="a TrialConfig as JSON, instead of a preset")
     run.add_argument(
-        "--set", action="append", default=[], metavar="FIELD=VALUE", help="change one field of it"
+        "--set", action="append", default=[], metavar="FIELD=VALUE",
+        help="change one field of it, such as learner.sigma=0.5; as often as you like",
+    )  # fmt: skip
+    run.add_argument(
+        "--seed", type=int, default=1, metavar="N", help="of all draws (default: %(default)s)"
     )
-    run.add_argument("--seed", type=int, default=1, metavar="N", help="default: %(default)s")
     run.add_argument(
         "--steps", type=int, default=10_000, metavar="N",
         help="steps of each of the two rounds of free learning (default: %(default)s)",
@@ -109,7 +115,9 @@ def _parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     run.add_argument("--echoes", action="store_true", help="record the sonars' echoes, too")
     run.add_argument("--csv", action="store_true", help="write the records as CSV, too")
-    run.add_argument("--output", default="out/run", metavar="DIR", help="default: %(default)s")
+    run.add_argument(
+        "--output", default="out/run", metavar="DIR", help="folder to write (default: %(default)s)"
+    )
     run.set_defaults(verb=_run)
     return parser
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import html
-import io
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -47,10 +46,14 @@ def write_report(
     seeds: int,
     seconds: float,
 ) -> None:
-    """Write the report, pictures and all, to one file. Raises FileError."""
+    """Write the report to one file, with the pictures that are in ``figures`` beside it.
+
+    Raises FileError.
+    """
+    folder = path.parent / "figures"
     figures = [
         f"<h2>{'Beyond the paper' if number == 0 else f'Figure {number}'}</h2>"
-        + "".join(map(_figure, group))
+        + "".join(_figure(folder, figure) for figure in group)
         + (f"<h2>Table 1</h2>{_table(table)}" if number == 10 else "")
         for number, group in drawn.items()
     ]
@@ -69,7 +72,7 @@ claim should fail; where it holds for the control too, the criterion says little
 {_claims(verdicts)}
 <h2>Over all seeds</h2>
 {_table(summary)}
-{"".join(map(_figure, statistics))}
+{"".join(_figure(folder, figure) for figure in statistics)}
 {"".join(figures)}
 <h2>How it was made</h2>
 <p>A run is two rounds of free learning of {experiments.FREE_STEPS} steps, then up to
@@ -118,7 +121,8 @@ def _claims(verdicts: Mapping[str, Sequence[Verdict]]) -> str:
             f"<td>{html.escape(criterion)}</td>{cells}</tr>"
         )
     return (
-        f'<div class="scroll"><table class="claims"><thead><tr><th>claim</th><th>criterion</th>{head}</tr></thead>'
+        '<div class="scroll"><table class="claims">'
+        f"<thead><tr><th>claim</th><th>criterion</th>{head}</tr></thead>"
         f"<tbody>{''.join(rows)}</tbody></table></div>"
     )
 
@@ -136,10 +140,8 @@ def _yes(holds: bool, *, good: bool = True) -> str:
     return f'<td class="{"yes" if holds == good else "no"}">{"yes" if holds else "no"}</td>'
 
 
-def _figure(drawn: Drawn) -> str:
-    picture = io.BytesIO()
-    drawn.figure.savefig(picture, format="png")
-    data = base64.b64encode(picture.getvalue()).decode()
+def _figure(folder: Path, drawn: Drawn) -> str:
+    data = base64.b64encode((folder / f"{drawn.name}.png").read_bytes()).decode()
     caption = html.escape(drawn.caption)
     width = round(drawn.figure.get_figwidth() * 120)
     return (

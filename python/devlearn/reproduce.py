@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 
 from . import _core, experiments, figures
@@ -104,9 +105,10 @@ def save_figure(folder: Path, drawn: figures.Drawn) -> list[Path]:
     made_folder(folder)
     paths = [folder / f"{drawn.name}.{kind}" for kind in ("png", "svg")]
     for path in paths:
-        # No date: the same figure is the same file.
+        # No date and no names by chance: the same figure is the same file.
         metadata = {"Date": None} if path.suffix == ".svg" else None
-        with written_aside(path, "wb") as file:
+        salted = mpl.rc_context({"svg.hashsalt": drawn.name})
+        with salted, written_aside(path, "wb") as file:
             drawn.figure.savefig(file, format=path.suffix[1:], metadata=metadata)
     return paths
 

@@ -1,0 +1,539 @@
+"""The command line end to end: what it makes, and how it refuses."""
+
+import csv
+import io
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import devlearn
+import numpy as np
+import pytest
+from devlearn import Record, TrialConfig, World, _core, cli, experiments, measures, runs
+from devlearn.claims import claims
+
+SHORT = ["--steps", "300", "--rounds", "3", "--step-limit", "200"]
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+def command(*arguments, **environment):
+    """Runs devlearn as its own process."""
+    return subprocess.run(
+        [sys.executable, "-m", "devlearn.cli", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env=os.environ | environment,
+    )
+
+
+def refusal(capsys, *arguments):
+    """The one line that a refused command writes."""
+    assert cli.main(list(map(str, arguments))) == 1
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert re.fullmatch(r"devlearn: .+\n", err), err
+    return err
+
+
+@pytest.fixture
+def without_matplotlib(tmp_path):
+    """An environment in which matplotlib is not installed."""
+    shim = tmp_path / "shim" / "matplotlib"
+    shim.mkdir(parents=True)
+    (shim / "__init__.py").write_text("raise ModuleNotFoundError(\"No module named 'matplotlib'\")")
+    return {"PYTHONPATH": str(shim.parent)}
+
+
+# --- in general -----------------------------------------------------------------------------------
+
+
+def test_the_version_is_the_librarys():
+    done = command("--version")
+    assert done.returncode == 0
+    assert done.stdout == f"devlearn {devlearn.__version__} ({_core.commit})\n"
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["reproduce", "--help"]])
+def test_help_fits_and_names_every_option_with_what_it_does(arguments, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    with pytest.raises(SystemExit) as left:
+        cli.main(arguments)
+    assert left.value.code == 0
+    text = capsys.readouterr().out
+    assert max(map(len, text.splitlines())) <= 80
+    options = re.search(r"options:\n(.+?)(\n\n|\Z)", text, re.DOTALL)[1]
+    for option in re.findall(r"\[(--[a-z-]+)", text):
+        assert re.search(rf"{option}( \S+)?\s+\S", options), option
+
+
+def test_help_of_run_names_the_worlds_that_ship(capsys):
+    with pytest.raises(SystemExit):
+        cli.main(["run", "--help"])
+    text = capsys.readouterr().out
+    assert all(world in text for world in devlearn.worlds())
+
+
+@pytest.mark.parametrize("arguments", [[], ["nothing"], ["run"], ["run", "paper", "--steps", "x"]])
+def test_a_line_that_cannot_be_read_is_a_usage_error(arguments, capsys):
+    with pytest.raises(SystemExit) as left:
+        cli.main(arguments)
+    assert left.value.code == 2
+    assert "usage: devlearn" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("line", ["import devlearn", "from devlearn.cli import main; main([])"])
+def test_matplotlib_is_not_imported_before_it_is_needed(line):
+    code = f"""
+import sys
+try:
+    {line}
+except SystemExit:
+    pass
+sys.exit("matplotlib" in sys.modules)
+"""
+    assert subprocess.run([sys.executable, "-c", code], stderr=subprocess.DEVNULL).returncode == 0
+
+
+# --- run ------------------------------------------------------------------------------------------
+
+
+def test_run_writes_the_records_that_a_trial_makes(tmp_path):
+    folder = tmp_path / "a" / "b"
+    done = command("run", "u_trap", *SHORT, "--seed", 7, "--output", folder, "--echoes", "--csv")
+    assert (done.returncode, done.stderr) == (0, "")
+    trial = devlearn.Trial(World.load("u_trap"), TrialConfig.paper(), 7)
+    expected = {
+        "free_1": trial.free_learning(300, echoes=True),
+        "free_2": trial.free_learning(300, echoes=True),
+        "paths": trial.path_learning(3, 200, echoes=True),
+    }
+    for name, record in expected.items():
+        written = Record.load(folder / f"{name}.npz")
+        for column in ("round", "situation", "motion", "sef", "x", "echoes", "rounds"):
+            assert np.array_equal(getattr(written, column), getattr(record, column)), column
+        assert len((folder / f"{name}.csv").read_text().splitlines()) == 2 + len(record)
+        assert written.provenance["seed"] == 7
+    with (folder / "rounds.csv").open() as file:
+        rows = list(csv.reader(file))
+    rounds = expected["paths"].rounds
+    assert rows[0] == ["round", "steps", "arrived"]
+    assert [[int(v) for v in row] for row in rows[1:]] == [list(map(int, r)) for r in rounds]
+    assert (folder / "overview.png").read_bytes().startswith(PNG)
+    assert f"written: {folder}" in done.stdout
+
+
+def test_run_says_what_came_of_it(tmp_path, capsys):
+    world = World(3, 3, (1.5, 1.5, 0), (2.2, 1.5), name="next door")
+    world.save(tmp_path / "own.json")
+    line = ["run", str(tmp_path / "own.json"), "--steps", "900", "--rounds", "44"]
+    assert cli.main([*line, "--output", str(tmp_path)]) == 0
+    out, err = capsys.readouterr()
+    records = {n: Record.load(tmp_path / f"{n}.npz") for n in ("free_1", "free_2", "paths")}
+    first, second = (measures.first_arrival(records[n]) for n in ("free_1", "free_2"))
+    steps = records["paths"].rounds["steps"]
+    settled = measures.settled_round(records["paths"])
+    assert err == ""
+    assert out.splitlines() == [
+        "world next door, seed 1",
+        f"free learning, round 1: target reached at step {first}",
+        f"free learning, round 2: target reached at step {second}",
+        f"path learning: 44 of 44 rounds arrived; first {steps[0]} steps, last {steps[-1]}; "
+        + ("not settled" if settled is None else f"settled from round {settled} on"),
+        f"written: {tmp_path}{os.sep}",
+    ]
+
+
+def test_the_same_command_makes_the_same_history(tmp_path, monkeypatch):
+    monkeypatch.setattr(cli, "_draw", lambda *_: None)
+    for name in ("a", "b"):
+        assert cli.main(["run", "paper", *SHORT, "--output", str(tmp_path / name)]) == 0
+    a, b = (Record.load(tmp_path / name / "paths.npz") for name in ("a", "b"))
+    assert a.motion.tobytes() == b.motion.tobytes()
+    assert a.provenance == b.provenance
+
+
+def run_config(tmp_path, *options):
+    """The configuration of a run with these options."""
+    assert cli.main(["run", "empty", *SHORT, "--output", str(tmp_path / "out"), *options]) == 0
+    return Record.load(tmp_path / "out" / "paths.npz").config
+
+
+def test_presets_files_and_single_fields_make_the_configuration(tmp_path, monkeypatch):
+    monkeypatch.setattr(cli, "_draw", lambda *_: None)
+    assert run_config(tmp_path) == TrialConfig.paper()
+    assert run_config(tmp_path, "--preset", "step5") == TrialConfig.step5()
+    own = TrialConfig.step5().replace(cell_size=0.5)
+    (tmp_path / "config.json").write_text(json.dumps(own.to_dict()))
+    file = ["--config", str(tmp_path / "config.json")]
+    assert run_config(tmp_path, *file) == own
+    changed = run_config(
+        tmp_path, *file, "--set", "learner.sigma=0.7", "--set", "walls_count=true",
+        "--set", "clearance_source=sonar",
+    )  # fmt: skip
+    learner = own.learner.replace(sigma=0.7)
+    assert changed == own.replace(learner=learner, walls_count=True, clearance_source="sonar")
+
+
+@pytest.mark.parametrize("steps", [0, 50])
+@pytest.mark.parametrize("rounds", [0, 1])
+def test_no_steps_and_no_rounds_are_a_run_of_nothing(tmp_path, capsys, steps, rounds):
+    line = ["run", "empty", "--steps", steps, "--rounds", rounds, "--step-limit", 5]
+    assert cli.main([*map(str, line), "--output", str(tmp_path)]) == 0
+    assert len(Record.load(tmp_path / "free_2.npz")) == steps
+    assert len(Record.load(tmp_path / "paths.npz")) == 5 * rounds
+    assert "target was never reached" in capsys.readouterr().out
+
+
+def test_run_needs_no_matplotlib(tmp_path, without_matplotlib):
+    done = command("run", "paper", *SHORT, "--output", tmp_path / "out", **without_matplotlib)
+    assert done.returncode == 0
+    assert len(Record.load(tmp_path / "out" / "paths.npz").rounds) == 3
+    assert re.fullmatch(r"no figures: .*pip install 'devlearn\[plots\]'.*\n", done.stderr)
+    assert not list((tmp_path / "out").glob("overview.*"))
+
+
+def test_ctrl_c_in_a_run_keeps_its_records(tmp_path, monkeypatch, capsys):
+    class Interrupted(_core.Trial):
+        def path_learning(self, *arguments, **more):
+            threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+            return super().path_learning(*arguments, **more)
+
+    monkeypatch.setattr(_core, "Trial", Interrupted)
+    line = ["run", "paper", "--steps", "2000", "--rounds", "1000000", "--output", str(tmp_path)]
+    began = time.monotonic()
+    assert cli.main(line) == 130
+    assert time.monotonic() - began < 20
+    assert capsys.readouterr().err == f"what is finished is in {tmp_path}\ndevlearn: stopped\n"
+    assert len(Record.load(tmp_path / "free_1.npz")) == 2000
+    assert len(Record.load(tmp_path / "free_2.npz")) == 2000
+    stopped = Record.load(tmp_path / "stopped.npz")
+    assert stopped.rounds["round"][0] == 3
+    assert len(stopped) > 1000
+    assert not (tmp_path / "paths.npz").exists()
+
+
+def test_a_reader_who_leaves_is_no_error_of_ours(tmp_path):
+    run = subprocess.Popen(
+        [sys.executable, "-m", "devlearn.cli", "run", "empty", *SHORT, "--output", tmp_path],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    run.stdout.close()
+    assert run.stderr.read() == ""
+    assert run.wait(60) == 1
+
+
+# --- what is refused ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (["--steps", -1], "--steps: got -1; expected at least 0"),
+        (["--rounds", -1], "--rounds: got -1; expected at least 0"),
+        (["--step-limit", 0], "--step-limit: got 0; expected at least 1"),
+        (["--steps", 10**30], "expected a whole number"),
+        (["--seed", -1], "seed: got -1; expected"),
+        (["--seed", 2**64], "seed: got 18446744073709551616; expected"),
+        (["--preset", "step6"], "preset: got 'step6'; expected 'paper' or 'step5'"),
+        (["--set", "learner.sigma=NaN"], "LearnerConfig.sigma: got nan; expected"),
+        (["--set", "learner.sigma=1e999"], "LearnerConfig.sigma: got inf; expected"),
+        (["--set", "evaluation.a1=-Infinity"], "StateEvaluation.a1: got -inf; expected"),
+        (["--set", "learner.sigma=many"], "--set: got 'learner.sigma=many'; expected a value of"),
+        (["--set", "learner.sigma="], "--set: got 'learner.sigma='; expected a value of"),
+        (["--set", "learner=3"], "--set: got 'learner=3'; expected a value of"),
+        (["--set", "learner.sigma"], "FIELD is one of learner.motion_count, learner.eta, "),
+        (["--set", "sigma=0.5"], "--set: got 'sigma=0.5'; expected FIELD=VALUE, where FIELD is"),
+        (["--set", "learner.sigma.x=1"], "expected FIELD=VALUE"),
+        (["--set", "="], "expected FIELD=VALUE"),
+        (["--set", ""], "expected FIELD=VALUE"),
+        (["--set", "learner.motion_count=3"], "got 3; expected 5"),
+    ],
+)
+def test_run_refuses_in_one_line_what_cannot_run(tmp_path, capsys, options, says):
+    line = refusal(capsys, "run", "paper", "--output", tmp_path / "out", *options)
+    assert says in line
+    assert list(tmp_path.glob("out/*")) == []  # before anything was run
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        (b"{bad", "Expecting property name"),
+        (b"\xff\xfe\x00", "decode"),
+        (b"", "Expecting value"),
+        (b"[1]", "expected a TrialConfig as JSON"),
+        (b"NaN", "expected a TrialConfig as JSON"),
+        (b'{"learner": {"sigma": "x"}}', "expected a TrialConfig as JSON"),
+        (b'{"learner": {"sigma": 7}}', "LearnerConfig.sigma: got 7; expected in (0, 1)"),
+        (b'{"nope": 1}', "nope: got an unknown field; expected one of learner, "),
+        (b"[" * 100_000, "expected a TrialConfig as JSON"),
+    ],
+)
+def test_run_refuses_a_configuration_by_its_file(tmp_path, capsys, content, says):
+    file = tmp_path / "config.json"
+    file.write_bytes(content)
+    line = refusal(capsys, "run", "paper", "--config", file, "--output", tmp_path / "out")
+    assert line.startswith(f"devlearn: {file}: ")
+    assert says in line
+    assert not (tmp_path / "out").exists()
+
+
+def test_run_refuses_files_that_are_not_there_or_no_files(tmp_path, capsys):
+    missing = tmp_path / "missing.json"
+    assert "no such file" in refusal(capsys, "run", missing)
+    assert all(name in refusal(capsys, "run", "papre") for name in ("papre", *devlearn.worlds()))
+    assert "irectory" in refusal(capsys, "run", tmp_path)
+    assert "No such file" in refusal(capsys, "run", "paper", "--config", missing)
+    assert "irectory" in refusal(capsys, "run", "paper", "--config", tmp_path)
+
+
+@pytest.mark.parametrize("content", ["{bad", "", "[]", "{}", '{"format": 3}'])
+def test_run_refuses_a_file_that_is_no_world(tmp_path, capsys, content):
+    file = tmp_path / "world.json"
+    file.write_text(content)
+    assert refusal(capsys, "run", file).startswith(f"devlearn: {file}: ")
+
+
+@pytest.mark.parametrize(
+    "verb", [["run", "paper", *SHORT], ["reproduce", "--seeds", 1], ["reproduce", "--figure", 2]]
+)
+def test_a_folder_that_cannot_be_made_is_refused_at_once(tmp_path, capsys, verb):
+    (tmp_path / "file").write_text("")
+    for output in (tmp_path / "file", tmp_path / "file" / "below"):
+        line = refusal(capsys, *verb, "--output", output)
+        assert line.startswith(f"devlearn: {output}")
+        assert "expected a folder that can be made and written to" in line
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (["--seeds", 0], "seeds: got 0; expected a whole number in [1, 1000]"),
+        (["--seeds", 1001], "seeds: got 1001; expected"),
+        (["--workers", 0], "--workers: got 0; expected at least 1"),
+        (["--figure", 3], "figure: got 3; expected one of 2, 4, 6, 7, 8, 9, 10, 11, 12, 0"),
+        (["--figure", -1], "figure: got -1; expected one of"),
+    ],
+)
+def test_reproduce_refuses_in_one_line_what_cannot_be(tmp_path, capsys, options, says):
+    assert says in refusal(capsys, "reproduce", "--output", tmp_path / "out", *options)
+    assert not (tmp_path / "out").exists()
+
+
+def test_reproduce_without_matplotlib_says_what_to_install(tmp_path, without_matplotlib):
+    done = command("reproduce", "--output", tmp_path / "out", **without_matplotlib)
+    assert done.returncode == 1
+    assert re.fullmatch(r"devlearn: .*pip install 'devlearn\[plots\]'.*\n", done.stderr)
+    assert not (tmp_path / "out").exists()
+
+
+# --- reproduce ------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def small():
+    """Section VI in small: every run is short, and counts as settled."""
+    from devlearn import figures
+
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in {
+            "FREE_STEPS": 3000, "STEP_LIMIT": 2500, "PATH_ROUNDS": 6, "CONTROL_ROUNDS": 1,
+            "SIMILAR_ROUNDS": 2, "SIMILAR_CONTROL_ROUNDS": 1, "NEW_START_ROUNDS": 4,
+        }.items():  # fmt: skip
+            patch.setattr(experiments, name, value)
+        short = {"rounds": 6, "free_steps": 3000, "step_limit": 2500}
+        for key, value in short.items():
+            patch.setitem(experiments.run.__kwdefaults__, key, value)
+        patch.setitem(experiments.job.__kwdefaults__, "rounds", 6)
+        patch.setattr(measures, "settled_round", lambda record: int(record.rounds["round"][-1]))
+        patch.setattr(figures, "PAPER_TABLE_1", {4: 194, 8: 149})
+        patch.setattr(runs, "code_fingerprint", lambda: "this code")  # whoever edits it meanwhile
+        yield figures.Gallery()
+
+
+@pytest.fixture(scope="module")
+def reproduced(small, tmp_path_factory):
+    """The folder of a whole ``devlearn reproduce``, and what it printed."""
+    folder = tmp_path_factory.mktemp("reproduced")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys, "stdout", io.StringIO())
+        line = ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(folder)]
+        assert cli.main(line) == 0
+        return folder, sys.stdout.getvalue()
+
+
+def assert_drawn(path):
+    """A picture with something in it, as PNG and as SVG."""
+    import matplotlib.image
+
+    assert path.with_suffix(".png").read_bytes().startswith(PNG)
+    pixels = matplotlib.image.imread(path.with_suffix(".png"))
+    assert min(pixels.shape[:2]) > 200
+    assert 0.01 < np.mean(pixels[:, :, :3].min(axis=2) < 0.9) < 0.95  # neither blank nor black
+    root = ElementTree.parse(path.with_suffix(".svg")).getroot()
+    assert root.tag.endswith("svg")
+    assert len(list(root.iter("{http://www.w3.org/2000/svg}path"))) > 20
+
+
+NAMES = {
+    2: ["fig02_world"], 4: ["fig04_sef"], 6: ["fig06_free_learning"], 7: ["fig07_counts"],
+    8: ["fig08_episodes"], 9: ["fig09_second_round"],
+    10: ["fig10_path_optimisation", "fig10_rounds"], 11: ["fig11_habits"],
+    12: ["fig12_new_starts"], 0: ["preferences", "kinds"],
+}  # fmt: skip
+
+
+def test_one_figure_is_drawn_by_its_number_and_nothing_else(tmp_path):
+    done = command("reproduce", "--figure", 7, "--output", tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    files = [tmp_path / "figures" / f"fig07_counts.{kind}" for kind in ("png", "svg")]
+    assert done.stdout.split() == list(map(str, files))
+    assert sorted(path for path in tmp_path.rglob("*") if path.is_file()) == files
+    assert_drawn(files[0])
+
+
+@pytest.mark.parametrize("number", NAMES)
+def test_every_number_draws_its_figures(small, tmp_path, capsys, monkeypatch, number):
+    from devlearn import figures, reproduce
+
+    monkeypatch.setattr(figures, "Gallery", lambda: small)  # whose runs are made once
+    monkeypatch.setattr(reproduce, "save_figure", lambda folder, drawn: [folder / drawn.name])
+    assert cli.main(["reproduce", "--figure", str(number), "--output", str(tmp_path)]) == 0
+    printed = [Path(line) for line in capsys.readouterr().out.splitlines()]
+    assert {path.parent for path in printed} == {tmp_path / "figures"}
+    names, more = [path.name for path in printed], len(NAMES[number])
+    assert names[:more] == NAMES[number]
+    assert all(re.fullmatch("fig08_episode_[abcd]", name) for name in names[more:])
+
+
+def test_a_figure_drawn_again_is_the_same_file(small, tmp_path, monkeypatch):
+    from devlearn import figures
+
+    monkeypatch.setattr(figures, "Gallery", lambda: small)
+    for name in "ab":
+        assert cli.main(["reproduce", "--figure", "7", "--output", str(tmp_path / name)]) == 0
+    for kind in ("png", "svg"):
+        a, b = (tmp_path / n / "figures" / f"fig07_counts.{kind}" for n in "ab")
+        assert a.read_bytes() == b.read_bytes()
+
+
+def test_reproduce_draws_every_figure_as_png_and_svg(reproduced):
+    folder, _ = reproduced
+    written = {path.stem for path in (folder / "figures").iterdir()}
+    expected = {name for names in NAMES.values() for name in names}
+    expected |= {"rounds_over_seeds", "sigmas"}
+    assert written >= expected
+    assert all(re.fullmatch("fig08_episode_[abcd]", name) for name in written - expected)
+    for name in written:
+        assert_drawn(folder / "figures" / f"{name}.png")
+
+
+def no_constant(name):
+    raise AssertionError(f"{name} is not JSON")
+
+
+def test_the_numbers_are_json_and_say_what_the_claims_came_to(reproduced):
+    folder, out = reproduced
+    text = (folder / "numbers.json").read_text()
+    numbers = json.loads(text, parse_constant=no_constant)
+    assert list(numbers["claims"]) == ["paper", "step5"]
+    for name, judged in numbers["claims"].items():
+        assert [claim["id"] for claim in judged] == [claim["id"] for claim in claims()]
+        held = sum(claim["holds"] for claim in judged)
+        assert f"preset {name}: {held} of {len(judged)} claims hold" in out
+        (run,) = numbers["runs"][name]["runs"]
+        values = {claim["id"]: claim["figure"]["value"] for claim in judged}
+        assert values["arrives_sooner"] == run["arrives_sooner"]
+        assert values["wanders_less"] == run["wanders_less"]
+        assert len(run["round_steps"]) == 6
+    assert list(numbers["runs"]["paper"]["by_sigma"]) == ["0.1", "0.3", "0.5", "0.7", "0.9"]
+    assert numbers["provenance"]["seed"] == "1 to 1"
+    assert numbers["provenance"]["devlearn"] == devlearn.__version__
+
+
+def test_table_1_stands_beside_the_papers(reproduced):
+    folder, _ = reproduced
+    with (folder / "table1.csv").open() as file:
+        head, *rows = csv.reader(file)
+    assert head[:3] == ["round", "paper", "seed 1"]
+    assert head[3:6] == ["paper p10", "paper median", "paper p90"]
+    assert [row[:2] for row in rows] == [["4", "194"], ["8", "149"]]
+    numbers = json.loads((folder / "numbers.json").read_text())
+    for column, name in ((4, "paper"), (7, "step5")):
+        (run,) = numbers["runs"][name]["runs"]
+        assert [float(row[column]) for row in rows] == [run["round_steps"][r - 3] for r in (4, 8)]
+
+
+def test_the_report_needs_nothing_but_itself(reproduced):
+    folder, _ = reproduced
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    pictures = re.findall(r'<img src="data:image/png;base64,([^"]+)"', page)
+    assert len(pictures) == len(list((folder / "figures").glob("*.png")))
+    outside = [at for at in re.findall(r'(?:src|href)\s*=\s*"?([^">]{0,20})', page)
+               if not at.startswith(("data:", "#"))]  # fmt: skip
+    assert outside == []
+    assert not re.search(r"https?://|<script|<link|@import|url\(", page)
+
+
+def test_the_report_tells_each_claim_with_its_control(reproduced):
+    from html import escape
+
+    folder, out = reproduced
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    flat = " ".join(page.split())
+    for claim in claims():
+        for field in ("claim", "measure", "control"):
+            assert escape(claim[field]) in flat, claim["id"]
+    for held in re.findall(r"preset \w+: (\d+ of \d+ claims hold)", out):
+        assert held in flat
+    assert "nan" not in re.sub(r"base64,[^\"]+", "", page).lower().split()
+    assert f"report: {folder / 'report.html'}" in out
+
+
+def test_reproducing_again_runs_nothing_again(reproduced, small, monkeypatch, capsys):
+    folder, _ = reproduced
+    journal = (folder / "runs.jsonl").read_bytes()
+    before = json.loads((folder / "numbers.json").read_text())
+
+    def never(job):
+        raise AssertionError("run again")
+
+    from devlearn import figures
+
+    monkeypatch.setattr(experiments, "execute", never)
+    monkeypatch.setattr(figures, "FIGURES", {})  # they take most of the time
+    line = ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(folder)]
+    assert cli.main(line) == 0
+    assert (folder / "runs.jsonl").read_bytes() == journal
+    assert len(journal.splitlines()) == 14  # 16 less the controls that both presets share
+    after = json.loads((folder / "numbers.json").read_text())
+    assert after["claims"] == before["claims"]
+    assert after["runs"] == before["runs"]
+
+
+def test_reproduce_that_is_stopped_says_how_to_go_on(small, tmp_path, monkeypatch, capsys):
+    count = 0
+
+    def stopped(job):
+        nonlocal count
+        count += 1
+        if count == 3:
+            raise KeyboardInterrupt
+        return execute(job)
+
+    execute = experiments.execute
+    monkeypatch.setattr(experiments, "execute", stopped)
+    line = ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(tmp_path)]
+    assert cli.main(line) == 130
+    err = capsys.readouterr().err
+    assert f"kept in {tmp_path}; the same command goes on from there" in err
+    assert "Traceback" not in err
+    assert len((tmp_path / "runs.jsonl").read_text().splitlines()) == 2
