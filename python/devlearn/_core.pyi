@@ -398,14 +398,26 @@ class Learner:
         learner.learn(smf)                      # SMF = SEF after - SEF before, Eq. 8
 
     The same configuration, seed and outcomes give the same history everywhere. copy.copy and
-    copy.deepcopy give independent learners that go on alike.
+    copy.deepcopy give independent learners that go on alike. One thread at a time.
     """
+    @staticmethod
+    def from_bytes(snapshot: bytes) -> Learner:
+        """
+        The learner in a snapshot's bytes. Raises FileError.
+        """
+    @staticmethod
+    def load(path: typing.Any) -> Learner:
+        """
+        The learner in a snapshot; it goes on equal to the bit. Raises FileError, saying what is wrong with the file.
+        """
     def __copy__(self) -> Learner: ...
     def __deepcopy__(self, memo: dict[str, typing.Any]) -> Learner: ...
+    def __getstate__(self) -> bytes: ...
     def __init__(
         self, config: LearnerConfig | None = None, seed: typing.SupportsIndex = 0
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: bytes) -> None: ...
     def cancel(self) -> None:
         """
         The waiting choice was not executed; nothing is learned. Raises InvalidValue where none waits.
@@ -430,6 +442,10 @@ class Learner:
         """
         Makes room for so many situations in all.
         """
+    def save(self, path: typing.Any) -> None:
+        """
+        Writes a snapshot (safetensors layout): to the side first, flushed, then renamed. Raises FileError.
+        """
     def situation(self, situation: typing.SupportsIndex) -> SituationMemory:
         """
         A situation's lists, as a copy; of one never experienced every motion is unexplored. Creates nothing.
@@ -437,6 +453,10 @@ class Learner:
     def situations(self) -> numpy.ndarray:
         """
         Ids of the situations experienced, in that order: an int64 array.
+        """
+    def to_bytes(self) -> bytes:
+        """
+        The snapshot as bytes.
         """
     def update(
         self,
