@@ -24,6 +24,8 @@ def library(name):
 
 CORE_SOURCES, CORE_HEADERS = library("core")
 SIM_SOURCES, SIM_HEADERS = library("sim")
+# The C++ library cannot flush a file to the disk.
+OPERATING_SYSTEM = {"fcntl.h", "unistd.h"}
 
 
 def includes(path):
@@ -60,9 +62,10 @@ def test_a_core_header_needs_only_core_and_the_standard_library(name):
 
 
 @pytest.mark.parametrize("name", sorted(CORE_SOURCES))
-def test_a_core_source_needs_only_core_and_eigen(name):
+def test_a_core_source_needs_only_core_eigen_and_the_operating_system(name):
     assert own(SOURCES / name) <= CORE_HEADERS
-    assert {other for other in foreign(SOURCES / name) if not other.startswith("Eigen/")} == set()
+    others = {other for other in foreign(SOURCES / name) if not other.startswith("Eigen/")}
+    assert others <= OPERATING_SYSTEM
 
 
 @pytest.mark.parametrize("name", sorted(SIM_HEADERS))
