@@ -255,6 +255,19 @@ def test_rounds_from_a_new_start_end_with_one_that_is_useful(paper, made):
     assert made.trial.learner.explored_count == before  # it learned with a copy
 
 
+def test_useful_is_at_most_one_and_a_half_times_the_shortest_path(paper, made):
+    config, learner = TrialConfig.paper(), made.trial.learner
+    start = experiments.new_starts(paper, config, 1)[0][0]
+    first = experiments.useful_round(paper, config, learner, start, 10**6).rounds
+    assert first["arrived"].tolist() == [False] * (len(first) - 1) + [True]
+    steps = int(first["steps"][-1])
+    enough = -(-steps * 2 // 3)  # the least whole number that makes so many steps useful
+    useful = experiments.useful_round(paper, config, learner, start, enough)
+    assert useful.rounds.tolist() == first.tolist()
+    later = experiments.useful_round(paper, config, learner, start, enough - 1)
+    assert later is None or len(later.rounds) > len(first)
+
+
 def test_new_starts_are_measured_in_rounds_with_what_was_learned_and_without(
     jobs, measured, paper, made
 ):
