@@ -1,5 +1,8 @@
 #include "devlearn/error.hpp"
 
+#include <stdexcept>
+#include <string_view>
+
 #include "bindings.hpp"
 
 namespace devlearn::python {
@@ -34,6 +37,10 @@ void bind_error(py::module_&) {
     } catch (const InvalidValue& error) {
       raise("InvalidValue", as_text(error.quantity()), as_text(error.value()),
             as_text(error.allowed()));
+    } catch (const std::runtime_error& error) {
+      // pybind11 has no type of its own for arrays that do not broadcast.
+      if (std::string_view(error.what()).rfind("pybind11::vectorize", 0) != 0) throw;
+      raise("InvalidValue", "the arrays' shapes", "others", "shapes that broadcast");
     }
   });
 }
