@@ -1,0 +1,176 @@
+"""The robot as Python sees it: its definition, Eq. 1 and 2, and its sonars."""
+
+import copy
+import json
+import pickle
+
+import devlearn
+import numpy as np
+import pytest
+from conftest import refused
+from devlearn import Pose, Robot, RobotDef, World
+from hypothesis import given
+from hypothesis import strategies as st
+
+EMPTY = Robot(World())
+poses = st.tuples(st.floats(0.5, 4.5), st.floats(0.5, 4.5), st.floats(-1e4, 1e4))
+
+
+def test_the_default_robot_is_the_papers():
+    robot = RobotDef()
+    assert (robot.radius, robot.speed, robot.sample_time, robot.track) == (0.1, 0.1, 0.5, None)
+    assert robot.steering_angles == [-60, -30, 0, 30, 60]
+    assert (robot.sonar_count, robot.sonar_fov, robot.sonar_range) == (5, 180, 2)
+    assert robot.sonar_angles() == [-90, -45, 0, 45, 90]
+    assert Robot(World()).definition == robot
+
+
+robots = st.builds(
+    RobotDef,
+    radius=st.floats(0.01, 10),
+    speed=st.floats(1e-6, 1),
+    sample_time=st.floats(1e-6, 1),
+    track=st.none() | st.floats(0, 10, exclude_min=True),
+    steering_angles=st.lists(st.floats(-360, 360), min_size=1, max_size=9),
+    sonar_count=st.integers(0, 720),
+    sonar_fov=st.floats(0, 360),
+    sonar_range=st.floats(0.01, 100),
+)
+
+
+@given(robots)
+def test_a_definition_survives_dict_json_pickle_and_copy(robot):
+    for again in (
+        RobotDef.from_dict(robot.to_dict()),
+        RobotDef.from_dict(json.loads(json.dumps(robot.to_dict()))),
+        pickle.loads(pickle.dumps(robot)),
+        copy.deepcopy(robot),
+        eval(repr(robot), {"RobotDef": RobotDef}),
+        robot.replace(),
+    ):
+        assert again == robot
+        assert hash(again) == hash(robot)
+    assert robot.replace(radius=11 - robot.radius if robot.radius > 5 else 6) != robot
+    assert len(robot.sonar_angles()) == robot.sonar_count
+
+
+@given(poses, st.integers(0, 4))
+def test_a_free_step_is_eq_1(pose, motion):
+    after, collided = EMPTY.step(pose, motion)
+    heading = np.mod(pose[2] + (-60, -30, 0, 30, 60)[motion], 360)
+    assert not collided
+    assert isinstance(after, Pose)
+    assert abs((after.heading - heading + 180) % 360 - 180) < 1e-9
+    assert abs(after.x - pose[0] - 0.05 * np.cos(np.radians(heading))) < 1e-12
+    assert abs(after.y - pose[1] - 0.05 * np.sin(np.radians(heading))) < 1e-12
+
+
+@given(poses, st.integers(0, 4))
+def test_box2d_all_the_way_comes_to_the_same_where_the_way_is_free(pose, motion):
+    exact, _ = EMPTY.step(pose, motion)
+    simulated, collided = EMPTY.step_simulated(pose, motion)
+    assert not collided
+    assert np.hypot(simulated.x - exact.x, simulated.y - exact.y) < 1e-5
+    assert simulated.heading == exact.heading
+
+
+def test_a_wall_stops_the_body_and_is_a_collision():
+    pose, collided = EMPTY.step((0.11, 2, 180), 2)
+    assert collided
+    assert 0.095 - 1e-6 <= pose.x <= 0.11
+    assert pose.heading == 180
+    assert EMPTY.step((0.11, 2, 0), 2) == ((0.16, 2, 0), False)
+
+
+def test_steps_are_pure(paper):
+    robot = Robot(paper)
+    pose = (1.3, 1.02, 90.0)  # in front of a circle
+    outcome = robot.step(pose, 3)
+    for other in range(5):
+        robot.step((0.11, 0.11, 225), other)
+        assert robot.step(pose, 3) == outcome
+        assert Robot(paper).step(pose, 3) == outcome
+
+
+def test_eq_2_gives_the_wheels_their_speeds():
+    robot = Robot(World())
+    assert robot.drive_speeds == (0.1, 0.1)
+    for motion, angle in enumerate((-60, -30, 0, 30, 60)):
+        left, right = robot.turn_speeds(motion)
+        assert left == -right
+        assert right == pytest.approx(np.radians(angle) * 0.1 / (2 * 0.5), abs=1e-15)
+    wide = Robot(World(), RobotDef(track=0.3))
+    assert wide.turn_speeds(4)[1] == pytest.approx(np.radians(60) * 0.3)
+
+
+def test_echoes_are_an_array_and_end_at_walls_and_at_the_range():
+    echoes = EMPTY.sonar((1, 2, 0))
+    assert echoes.dtype == np.float64
+    assert echoes == pytest.approx([1.9, 2, 2, 2, 2], abs=1e-5)
+    assert EMPTY.sonar((1, 2, 180)) == pytest.approx(
+        [2, np.sqrt(2) - 0.1, 0.9, np.sqrt(2) - 0.1, 1.9], abs=1e-5
+    )
+    around = Robot(World(), RobotDef(sonar_count=4, sonar_fov=360, sonar_range=9)).sonar((1, 2, 0))
+    assert around == pytest.approx([0.9, 1.9, 3.9, 2.9], abs=1e-5)
+    assert Robot(World(), RobotDef(sonar_count=0)).sonar((1, 2, 0)).shape == (0,)
+    echoes[:] = 7  # the caller's own
+    assert EMPTY.sonar((1, 2, 0))[0] != 7
+
+
+def test_poses_are_any_three_numbers():
+    expected = EMPTY.step((1, 2, 0), 2)
+    for pose in ([1, 2, 0], np.array([1, 2, 0]), np.array([1, 2, 0], np.float32), Pose(1, 2, 0)):
+        assert EMPTY.step(pose, 2) == EMPTY.step(pose, np.int16(2)) == expected
+        assert (EMPTY.sonar(pose) == EMPTY.sonar((1, 2, 0))).all()
+    x, y, heading = expected[0]
+    assert expected[0]._replace(x=0).y == y
+
+
+@pytest.mark.parametrize(
+    "pose", [(1, 2), (1, 2, 3, 4), "123", ("1", "2", "3"), None, 3, {1, 2, 3}, 1j]
+)
+def test_what_is_no_pose_is_a_type_error(pose):
+    for call in (lambda: EMPTY.step(pose, 0), lambda: EMPTY.sonar(pose)):
+        with pytest.raises(TypeError):
+            call()
+
+
+@pytest.mark.parametrize(
+    ("pose", "quantity"),
+    [
+        ((float("nan"), 2, 0), "pose.x"),
+        ((2, float("inf"), 0), "pose.y"),
+        ((2, 2, float("nan")), "pose.heading"),
+        ((-1, 2, 0), "pose.x"),
+        ((2, 6, 0), "pose.y"),
+        ((0.05, 2, 0), "pose"),
+        ((1e300, 2, 0), "pose.x"),
+    ],
+)
+def test_a_pose_that_cannot_be_is_refused_by_name(pose, quantity):
+    refused(lambda: EMPTY.step(pose, 0), quantity)
+    refused(lambda: EMPTY.step_simulated(pose, 0), quantity)
+    refused(lambda: EMPTY.sonar(pose), quantity)
+
+
+@pytest.mark.parametrize("motion", [-1, 5, 2**31, -(2**31) - 1, 2**64, 10**30])
+def test_a_motion_outside_m_is_refused_by_name(motion):
+    for call in (EMPTY.step, EMPTY.step_simulated):
+        refused(lambda call=call: call((1, 2, 0), motion), "motion", str(motion))
+    refused(lambda: EMPTY.turn_speeds(motion), "motion", str(motion))
+
+
+@pytest.mark.parametrize("substeps", [0, -1, 1001, 2**40])
+def test_a_number_of_substeps_out_of_range_is_refused(substeps):
+    refused(lambda: EMPTY.step_simulated((1, 2, 0), 0, substeps), "substeps", str(substeps))
+
+
+def test_the_shortest_path_is_a_way_of_the_robots_own(paper):
+    robot = Robot(paper)
+    way = devlearn.shortest_path(robot)
+    assert way.shape[1] == 3
+    assert tuple(way[0]) == paper.start
+    assert np.hypot(*(way[-1, :2] - paper.target)) <= 0.1
+    for pose, after in zip(way[:-1], way[1:]):
+        outcomes = [robot.step(pose, motion) for motion in range(5)]
+        assert any(not hit and np.allclose(p, after, atol=1e-9) for p, hit in outcomes)

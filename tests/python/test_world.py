@@ -1,0 +1,378 @@
+"""Worlds as Python sees them: built, loaded, compared, asked for distances; their schema."""
+
+import copy
+import json
+import os
+import pathlib
+import pickle
+import stat
+
+import devlearn
+import jsonschema
+import numpy as np
+import pytest
+from conftest import refused
+from devlearn import Circle, FileError, Polygon, Pose, Rectangle, World
+from hypothesis import given
+from hypothesis import strategies as st
+
+SCHEMA = json.loads((pathlib.Path(devlearn.__file__).parent / "world.schema.json").read_text())
+VALIDATOR = jsonschema.validators.validator_for(SCHEMA)(SCHEMA)
+
+inside = st.floats(0.3, 4.7)
+points = st.tuples(inside, inside)
+sizes = st.floats(0.02, 1)
+obstacles = st.one_of(
+    st.builds(Circle, points, sizes),
+    st.builds(Rectangle, points, st.tuples(sizes, sizes), st.floats(-360, 360)),
+    st.builds(Polygon, st.tuples(points, points, points)),
+)
+
+
+def try_world(obstacles, **more):
+    try:
+        return World(start=(0.1, 0.1, 0), target=(4.9, 4.9), obstacles=obstacles, **more)
+    except devlearn.InvalidValue:
+        return None
+
+
+# --- the worlds that ship ------------------------------------------------------------------------
+
+
+def test_at_least_six_worlds_ship_by_name():
+    assert {"paper", "empty", "corridor", "u_trap", "clutter", "office"} <= set(devlearn.worlds())
+    assert devlearn.worlds() == sorted(devlearn.worlds())
+
+
+@pytest.mark.parametrize("name", devlearn.worlds())
+def test_a_world_that_ships_is_whole(name):
+    world = World.load(name)
+    assert world.name == name
+    assert world.description
+    assert devlearn.Trial(world, seed=1).free_learning(50).path().shape == (51, 3)
+    assert len(devlearn.shortest_path(devlearn.Robot(world))) > 10
+    assert World.from_json(world.to_json()) == world
+    VALIDATOR.validate(json.loads(world.to_json()))
+
+
+def test_the_paper_world_is_that_of_the_method(paper):
+    assert (paper.width, paper.height) == (5, 5)
+    assert paper.start == (0.51, 0.515, 0)
+    assert paper.target == (4.4, 4.4)
+    assert paper.obstacles == [
+        Circle((1.3, 1.4), 0.25),
+        Rectangle((2.5, 0.9), (0.6, 0.35)),
+        Polygon([(3.6, 1.1), (4.2, 1.3), (3.7, 1.7)]),
+        Rectangle((1.0, 2.8), (0.35, 0.7)),
+        Circle((2.4, 2.3), 0.3),
+        Polygon([(3.2, 2.7), (3.9, 2.6), (3.5, 3.2)]),
+        Rectangle((2.2, 3.9), (0.8, 0.3)),
+        Circle((3.4, 4.2), 0.2),
+    ]
+
+
+# --- files and text ------------------------------------------------------------------------------
+
+
+@given(st.lists(obstacles, max_size=5), st.text(max_size=30), st.floats(-1e9, 1e9))
+def test_text_files_pickles_and_copies_bring_back_an_equal_world(shapes, name, heading):
+    world = try_world(shapes, name=name, description=name[::-1])
+    if world is None:
+        return
+    world = world.with_start((0.1, 0.1, heading))
+    for again in (
+        World.from_json(world.to_json()),
+        pickle.loads(pickle.dumps(world)),
+        copy.copy(world),
+        copy.deepcopy(world),
+    ):
+        assert again == world
+        assert again.to_json() == world.to_json()
+        assert again.start == (0.1, 0.1, heading)
+        assert again.obstacles == shapes
+    VALIDATOR.validate(json.loads(world.to_json()))
+
+
+def test_a_saved_world_loads_from_text_bytes_and_paths(paper, tmp_path):
+    for name in ("w.json", "noend", "ü x.json"):
+        for as_path in (lambda p: p, str, os.fsencode):
+            path = tmp_path / name
+            paper.save(as_path(path))
+            assert World.load(as_path(path)) == paper
+            path.unlink()
+
+
+def test_names_that_are_no_unicode_are_names_too(paper, tmp_path):
+    path = os.fsdecode(os.fsencode(tmp_path) + b"/\xff.json")
+    paper.save(path)
+    assert World.load(path) == paper
+    pathlib.Path(path).write_text("{}")
+    with pytest.raises(FileError) as caught:
+        World.load(path)
+    assert caught.value.file == path
+
+
+def test_a_folder_named_as_a_world_does_not_hide_it(paper, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "paper").mkdir()
+    assert World.load("paper") == paper
+    World(name="mine").save("empty")
+    assert World.load("empty").name == "mine"
+
+
+@pytest.mark.parametrize("place", ["absent/w.json", ".", "a\0b", "y" * 300, "file/w.json"])
+def test_places_that_cannot_be_written_are_refused_by_name(paper, tmp_path, place):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(FileError) as caught:
+        paper.save(f"{tmp_path}/{place}")
+    assert f"{tmp_path}/{place}".startswith(caught.value.file)
+    assert [p.name for p in tmp_path.iterdir()] == ["file"]
+
+
+def test_devices_and_links_are_not_replaced(paper, tmp_path):
+    with pytest.raises(FileError):
+        paper.save("/dev/null")
+    assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
+    World().save(tmp_path / "file")
+    (tmp_path / "link").symlink_to(tmp_path / "file")
+    paper.save(tmp_path / "link")
+    assert (tmp_path / "link").is_symlink()
+    assert World.load(tmp_path / "file") == paper
+
+
+def test_a_world_that_is_not_there_is_refused_with_the_names_of_those_that_are():
+    with pytest.raises(FileError) as caught:
+        World.load("papre")
+    assert caught.value.file == "papre"
+    assert "paper" in str(caught.value)
+
+
+def test_every_field_out_of_order_is_refused_by_its_name(paper):
+    text = json.loads(paper.to_json())
+
+    def refused_field(change):
+        changed = copy.deepcopy(text)
+        change(changed)
+        assert not VALIDATOR.is_valid(changed) or "in an obstacle" in str(refuse(changed))
+        return refuse(changed).field
+
+    def refuse(changed):
+        with pytest.raises(FileError) as caught:
+            World.from_json(json.dumps(changed))
+        return caught.value
+
+    def put(path, value):
+        def change(tree):
+            *way, last = path
+            for key in way:
+                tree = tree[key]
+            tree[last] = value
+
+        return change
+
+    for path, value, field in [
+        (["format"], "x", "format"),
+        (["version"], 2, "version"),
+        (["version"], "1", "version"),
+        (["colour"], 1, "colour"),
+        (["name"], 3, "name"),
+        (["arena", "width"], 0.4, "arena.width"),
+        (["arena", "width"], "5", "arena.width"),
+        (["arena", "depth"], 5, "arena.depth"),
+        (["start", "x"], None, "start.x"),
+        (["start", "x"], [], "start.x"),
+        (["target"], [1, 2], "target"),
+        (["obstacles"], {}, "obstacles"),
+        (["obstacles", 0, "radius"], 0, "obstacles[0].radius"),
+        (["obstacles", 0, "shape"], "square", "obstacles[0].shape"),
+        (["obstacles", 0, "size"], [1, 1], "obstacles[0].size"),
+        (["obstacles", 1, "size"], [1, 0], "obstacles[1].size[1]"),
+        (["obstacles", 1, "angle"], 361, "obstacles[1].angle"),
+        (["obstacles", 2, "corners"], [[1, 1], [2, 2]], "obstacles[2].corners"),
+        (["obstacles", 2, "corners", 1], [1], "obstacles[2].corners[1]"),
+        (["obstacles", 2, "corners", 1, 0], "1", "obstacles[2].corners[1][0]"),
+    ]:
+        assert refused_field(put(path, value)) == field
+    for field in ("format", "version", "arena", "start", "target", "obstacles"):
+        assert refused_field(lambda tree, field=field: tree.pop(field)) == field
+    assert refused_field(lambda tree: tree["obstacles"][0].pop("radius")) == "obstacles[0].radius"
+
+
+@pytest.mark.parametrize("text", ["", "{", "null", "[]", "3", '"x"', "{}", "\0", "[" * 10**6, "﻿{}"])
+def test_text_that_is_no_world_is_refused(text):
+    with pytest.raises(FileError) as caught:
+        World.from_json(text)
+    assert caught.value.file == "JSON text"
+
+
+# --- built in code -------------------------------------------------------------------------------
+
+
+def test_the_default_world_is_the_empty_arena():
+    world = World()
+    assert (world.width, world.height, world.obstacles) == (5, 5, [])
+    assert (world.start, world.target) == ((0.5, 0.5, 0), (4.5, 4.5))
+    assert isinstance(world.start, Pose)
+    assert (world.name, world.description) == ("", "")
+
+
+def test_numbers_of_numpy_and_sequences_of_any_kind_are_taken():
+    world = World(
+        width=np.float32(4),
+        height=np.int64(4),
+        start=np.array([0.5, 0.5, 90]),
+        target=[3, 3],
+        obstacles=(
+            Circle(np.array([2, 1]), np.float64(0.2)),
+            Rectangle((2, 2), [1, 0.2]),
+            Polygon(np.array([(1, 3), (1.5, 3), (1.2, 3.5)])),
+        ),
+    )
+    assert (world.width, world.start, world.target) == (4, (0.5, 0.5, 90), (3, 3))
+    assert [type(o) for o in world.obstacles] == [Circle, Rectangle, Polygon]
+    assert world.obstacles[2].corners == [(1, 3), (1.5, 3), (1.2, 3.5)]
+
+
+def test_what_a_world_shows_cannot_change_it(paper):
+    paper.obstacles.clear()
+    assert len(paper.obstacles) == 8
+    for name in ("width", "start", "target", "name"):
+        with pytest.raises(AttributeError):
+            setattr(paper, name, getattr(paper, name))
+
+
+@pytest.mark.parametrize(
+    ("quantity", "arguments"),
+    [
+        ("arena.width", {"width": 0.4}),
+        ("arena.height", {"height": 1e9}),
+        ("arena.width", {"width": float("nan")}),
+        ("start.x", {"start": (-1, 1, 0)}),
+        ("start.y", {"start": (1, 5.1, 0)}),
+        ("start.heading", {"start": (1, 1, float("inf"))}),
+        ("target.x", {"target": (5.1, 1)}),
+        ("start", {"obstacles": [Circle((0.5, 0.5), 0.2)]}),
+        ("target", {"obstacles": [Rectangle((4.5, 4.5), (0.2, 0.2))]}),
+        ("obstacles[1].radius", {"obstacles": [Circle((2, 2), 0.2), Circle((2, 2), -1)]}),
+        ("obstacles[0].size[0]", {"obstacles": [Rectangle((2, 2), (0, 1))]}),
+        ("obstacles[0].center[0]", {"obstacles": [Circle((float("nan"), 2), 0.2)]}),
+        ("obstacles[0].corners", {"obstacles": [Polygon([])]}),
+        ("obstacles[0].corners", {"obstacles": [Polygon([(1, 1), (2, 2), (3, 3)])]}),
+        ("obstacles[0].corners", {"obstacles": [Polygon([(1, 1), (2, 2), (2, 1), (1, 2)])]}),
+        ("obstacles[0].corners[1]", {"obstacles": [Polygon([(1, 1), (1.001, 1), (2, 2)])]}),
+        ("name", {"name": "x" * 10_001}),
+    ],
+)
+def test_what_a_world_cannot_be_is_refused_by_the_field_of_its_file(quantity, arguments):
+    refused(lambda: World(**arguments), quantity)
+
+
+def test_another_start_is_another_world_and_a_bad_one_changes_nothing(paper):
+    other = paper.with_start((4.5, 0.5, 90))
+    assert other.start == (4.5, 0.5, 90)
+    assert other != paper
+    assert other.with_start(paper.start) == paper
+    refused(lambda: paper.with_start((1.3, 1.4, 0)), "start")
+    assert paper.start == (0.51, 0.515, 0)
+
+
+def test_equal_worlds_are_equal_in_hash_too(paper):
+    again = World.load("paper")
+    assert again == paper
+    assert again is not paper
+    assert (hash(again), again.hash) == (hash(paper), paper.hash)
+    assert len({again, paper, World()}) == 2
+    assert paper != World()
+    assert paper != "paper"
+    assert len(paper.hash) == 64
+    assert int(paper.hash, 16)
+
+
+def test_obstacles_are_values():
+    for make in (
+        lambda: Circle((1, 2), 0.3),
+        lambda: Rectangle((1, 2), (0.3, 0.4), 5),
+        lambda: Polygon([(1, 2), (2, 2), (2, 3)]),
+    ):
+        obstacle = make()
+        assert obstacle == make()
+        assert pickle.loads(pickle.dumps(obstacle)) == obstacle
+        assert copy.deepcopy(obstacle) == obstacle
+        assert obstacle != Circle((1, 2), 0.30001)
+        assert obstacle != "x"
+        assert eval(repr(obstacle), vars(devlearn)) == obstacle
+
+
+# --- distances -----------------------------------------------------------------------------------
+
+
+def segment_distances(corners, x, y):
+    """Least distance from each point to the sides of an outline."""
+    least = np.full(np.shape(x), np.inf)
+    for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0)):
+        along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
+        along = np.clip(along, 0, 1)
+        least = np.minimum(least, np.hypot(x - ax - along * (bx - ax), y - ay - along * (by - ay)))
+    return least
+
+
+def winds_around(corners, x, y):
+    """Whether the outline turns around each point."""
+    turn = 0
+    for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0)):
+        cross = (ax - x) * (by - y) - (ay - y) * (bx - x)
+        turn = turn + np.arctan2(cross, (ax - x) * (bx - x) + (ay - y) * (by - y))
+    return np.abs(turn) > 3
+
+
+def distance(obstacle, x, y):
+    if isinstance(obstacle, Circle):
+        return np.maximum(
+            0, np.hypot(x - obstacle.center[0], y - obstacle.center[1]) - obstacle.radius
+        )
+    if isinstance(obstacle, Rectangle):
+        a = np.radians(obstacle.angle)
+        (cx, cy), (w, h) = obstacle.center, obstacle.size
+        u = (x - cx) * np.cos(a) + (y - cy) * np.sin(a)
+        v = (y - cy) * np.cos(a) - (x - cx) * np.sin(a)
+        return np.hypot(np.maximum(0, np.abs(u) - w / 2), np.maximum(0, np.abs(v) - h / 2))
+    inside = winds_around(obstacle.corners, x, y)
+    return np.where(inside, 0, segment_distances(obstacle.corners, x, y))
+
+
+@given(st.lists(obstacles, min_size=1, max_size=6), st.integers(0, 2**32 - 1))
+def test_clearance_is_the_least_distance_to_an_obstacle(shapes, seed):
+    world = try_world(shapes)
+    if world is None:
+        return
+    x, y = np.random.default_rng(seed).uniform(0, 5, (2, 200))
+    expected = np.min([distance(o, x, y) for o in shapes], axis=0)
+    clearance = world.clearance(x, y)
+    assert np.abs(clearance - expected).max() < 1e-9
+    walls = np.min([x, 5 - x, y, 5 - y], axis=0)
+    assert (world.clearance(x, y, walls_count=True) == np.minimum(clearance, walls)).all()
+    assert [world.clearance(*p) for p in zip(x.tolist(), y.tolist())] == clearance.tolist()
+
+
+def test_clearance_takes_numbers_and_arrays_of_any_shape(paper):
+    assert type(paper.clearance(1, 2)) is float
+    assert type(paper.clearance(np.float32(1), np.int8(2))) is float
+    x, y = np.meshgrid(np.linspace(0, 5, 7), np.linspace(0, 5, 4))
+    assert paper.clearance(x, y).shape == (4, 7)
+    assert paper.clearance(x.T, y.T).tolist() == paper.clearance(x, y).T.tolist()
+    assert paper.clearance([1, 2, 3], 0).shape == (3,)
+    assert paper.clearance(np.empty(0), np.empty(0)).shape == (0,)
+    assert World().clearance(1, 1) == np.inf
+    assert World().clearance(1, 2, walls_count=True) == 1
+    assert paper.clearance(-3, 9, True) == 0  # beyond the walls
+
+
+@pytest.mark.parametrize("bad", [float("nan"), float("inf"), -float("inf")])
+def test_clearance_of_no_point_is_refused(paper, bad):
+    refused(lambda: paper.clearance(bad, 1), "x")
+    refused(lambda: paper.clearance(1, bad), "y")
+    refused(lambda: paper.clearance(np.array([1, bad]), 1), "x")
+
+
+def test_arrays_that_do_not_broadcast_are_refused(paper):
+    refused(lambda: paper.clearance(np.zeros(3), np.zeros(2)), "the arrays' shapes")
