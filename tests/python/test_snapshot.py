@@ -3,12 +3,11 @@
 import copy
 import pickle
 
+import devlearn
 import numpy as np
 import pytest
 from safetensors import safe_open
 from safetensors.numpy import load_file
-
-import devlearn
 
 
 @pytest.fixture(scope="module")
