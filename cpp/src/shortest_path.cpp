@@ -33,7 +33,7 @@ class Cells {
 
   std::int64_t of(const Pose& pose) const noexcept {
     constexpr std::int64_t kHeadings = 360;
-    const auto heading = static_cast<std::int64_t>(pose.heading + 0.5) % kHeadings;
+    const std::int64_t heading = std::llround(pose.heading) % kHeadings;
     const auto column = static_cast<std::int64_t>(pose.x / cell_);
     const auto row = static_cast<std::int64_t>(pose.y / cell_);
     return (row * columns_ + column) * kHeadings + heading;
@@ -85,7 +85,8 @@ std::vector<Pose> shortest_path(const Robot& robot, const Pose& start, double go
         const std::optional<Pose> next = robot.free_step(node.pose, motion);
         if (!next || closed.count(cells.of(*next)) > 0) continue;
         const std::int32_t steps = node.steps + 1;
-        const auto bound = static_cast<std::size_t>(steps + least_steps(*next));
+        const auto bound =
+            static_cast<std::size_t>(steps) + static_cast<std::size_t>(least_steps(*next));
         if (bound >= open.size()) open.resize(bound + 1);
         // Rounding may put a step's bound below its parent's by one.
         open[std::max(bound, f)].push_back(static_cast<std::int32_t>(nodes.size()));

@@ -9,12 +9,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "devlearn/error.hpp"
+#include "devlearn/learner.hpp"
 #include "devlearn/situation.hpp"
 #include "devlearn/world.hpp"
 
@@ -62,17 +63,41 @@ class RecordObject : public py::object {
 
 /// A turn at the simulator, without the GIL: other Python threads run meanwhile, but Box2D, with
 /// its global counters, serves one thread at a time. A thread may take a turn within its turn, as
-/// an agent does that listens to a sonar.
+/// an agent does that listens to a sonar. Who waits for a turn hears Ctrl-C.
 class Turn {
  public:
-  Turn() : turn_(mutex()) {}
+  Turn();
+  ~Turn();
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
 
  private:
-  static std::recursive_mutex& mutex();
-
-  // In this order: whoever waits for a turn must not hold the GIL.
+  // Whoever waits for a turn must not hold the GIL.
   py::gil_scoped_release no_gil_;
-  std::lock_guard<std::recursive_mutex> turn_;
+};
+
+/// Marks a learner, while it lives, as in the hands of this thread's run. Made with the GIL held.
+class InRun {
+ public:
+  explicit InRun(std::shared_ptr<Learner> learner);
+  ~InRun();
+  InRun(const InRun&) = delete;
+  InRun& operator=(const InRun&) = delete;
+
+ private:
+  std::shared_ptr<Learner> learner_;
+};
+
+/// A learner that Python calls; refused while another thread's run has it in hand.
+class Idle {
+ public:
+  Idle() = default;
+  explicit Idle(Learner& learner);
+  Learner* operator->() const { return learner_; }
+  Learner& operator*() const { return *learner_; }
+
+ private:
+  Learner* learner_ = nullptr;
 };
 
 /// A path from Python as the system takes it: text, bytes or os.PathLike.
@@ -196,6 +221,17 @@ struct type_caster<devlearn::Point> {
                        io_name("collections.abc.Sequence[float]", "tuple[float, float]"));
   bool load(handle source, bool convert);
   static handle cast(const devlearn::Point& point, return_value_policy, handle);
+};
+
+template <>
+struct type_caster<devlearn::python::Idle> {
+  PYBIND11_TYPE_CASTER(devlearn::python::Idle, make_caster<devlearn::Learner>::name);
+  bool load(handle source, bool convert) {
+    make_caster<devlearn::Learner> learner;
+    if (!learner.load(source, convert)) return false;
+    value = devlearn::python::Idle(cast_op<devlearn::Learner&>(learner));
+    return true;
+  }
 };
 
 template <typename Tag>

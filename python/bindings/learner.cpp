@@ -31,8 +31,8 @@ WhenExhausted when_exhausted(const std::string& text) {
   throw InvalidValue("LearnerConfig.when_exhausted", "'" + text + "'", "'retry' or 'wander'");
 }
 
-py::bytes snapshot_bytes(const Learner& learner) {
-  const std::vector<std::byte> bytes = to_bytes(learner);
+py::bytes snapshot_bytes(Idle learner) {
+  const std::vector<std::byte> bytes = to_bytes(*learner);
   return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
@@ -161,7 +161,7 @@ void bind_learner(py::module_& m) {
   bind_config(m);
   bind_results(m);
 
-  const auto copy = [](const Learner& self) { return Learner(self); };
+  const auto copy = [](Idle self) { return Learner(*self); };
   py::class_<Learner, std::shared_ptr<Learner>>(
       m, "Learner",
       "The sensorimotor developmental learner: a situation in, a motion out; how good it was in,\n"
@@ -178,48 +178,45 @@ void bind_learner(py::module_& m) {
            py::arg("config") = py::none(), py::arg("seed") = 0)
       .def(
           "choose",
-          [](Learner& self, Whole<SituationTag> situation) { return self.choose(situation.value); },
+          [](Idle self, Whole<SituationTag> situation) { return self->choose(situation.value); },
           py::arg("situation"),
           "Step 3: chooses a motion. Raises InvalidValue for a negative situation, or while an "
           "earlier choice waits for learn() or cancel().")
       .def(
           "learn",
-          [](Learner& self, double smf, std::optional<Whole<MotionTag>> motion) {
-            return motion ? self.learn(smf, motion->value) : self.learn(smf);
+          [](Idle self, double smf, std::optional<Whole<MotionTag>> motion) {
+            return motion ? self->learn(smf, motion->value) : self->learn(smf);
           },
           py::arg("smf"), py::arg("motion") = py::none(),
           "Steps 4-5: learns from the chosen motion's SMF (finite; >= 0 means effective), or from "
           "that of the `motion` that really ran. Raises InvalidValue where no choice waits.")
       .def(
-          "cancel", &Learner::cancel,
+          "cancel", [](Idle self) { self->cancel(); },
           "The waiting choice was not executed; nothing is learned. Raises InvalidValue where none "
           "waits.")
       .def(
           "update",
-          [](Learner& self, Whole<SituationTag> situation, Whole<MotionTag> motion, double smf) {
-            return self.update(situation.value, motion.value, smf);
+          [](Idle self, Whole<SituationTag> situation, Whole<MotionTag> motion, double smf) {
+            return self->update(situation.value, motion.value, smf);
           },
           py::arg("situation"), py::arg("motion"), py::arg("smf"),
           "Learns about any situation and motion, whoever chose: delayed outcomes, several robots, "
           "replay. A waiting choice goes on waiting. Raises InvalidValue.")
       .def(
           "situation",
-          [](const Learner& self, Whole<SituationTag> situation) {
-            return self.situation(situation.value);
-          },
+          [](Idle self, Whole<SituationTag> situation) { return self->situation(situation.value); },
           py::arg("situation"),
           "A situation's lists, as a copy; of one never experienced every motion is unexplored. "
           "Creates nothing.")
       .def(
-          "situations",
-          [](const Learner& self) { return moved_array<SituationId>(self.situations()); },
+          "situations", [](Idle self) { return moved_array<SituationId>(self->situations()); },
           "Ids of the situations experienced, in that order: an int64 array.")
       .def(
           "reserve",
-          [](Learner& self, Whole<ReserveTag> situations) { self.reserve(situations.value); },
+          [](Idle self, Whole<ReserveTag> situations) { self->reserve(situations.value); },
           py::arg("situations"), "Makes room for so many situations in all.")
       .def(
-          "save", [](const Learner& self, const py::object& path) { save(self, file_path(path)); },
+          "save", [](Idle self, const py::object& path) { save(*self, file_path(path)); },
           py::arg("path"),
           "Writes a snapshot (safetensors layout): to the side first, flushed, then renamed. "
           "Raises "
@@ -239,23 +236,27 @@ void bind_learner(py::module_& m) {
       .def("copy", copy, "An independent learner that goes on alike.")
       .def("__copy__", copy)
       .def(
-          "__deepcopy__", [](const Learner& self, const py::dict&) { return Learner(self); },
+          "__deepcopy__", [](Idle self, const py::dict&) { return Learner(*self); },
           py::arg("memo"))
-      .def_property_readonly("explored_count", &Learner::explored_count,
-                             "NUM_RM: mappings explored so far.")
-      .def_property_readonly("effective_count", &Learner::effective_count,
-                             "NUM_M: mappings now effective.")
-      .def_property_readonly("situations_experienced", &Learner::situations_experienced,
-                             "How many situations were experienced.")
+      .def_property_readonly(
+          "explored_count", [](Idle self) { return self->explored_count(); },
+          "NUM_RM: mappings explored so far.")
+      .def_property_readonly(
+          "effective_count", [](Idle self) { return self->effective_count(); },
+          "NUM_M: mappings now effective.")
+      .def_property_readonly(
+          "situations_experienced", [](Idle self) { return self->situations_experienced(); },
+          "How many situations were experienced.")
       .def_property_readonly("config", &Learner::config, py::return_value_policy::copy,
                              "Its parameters.")
       .def_property_readonly("seed", &Learner::seed, "The seed it began with.")
-      .def_property_readonly("pending", &Learner::pending,
-                             "The choice that waits for its outcome, or None.")
-      .def("__repr__", [](const Learner& self) {
-        return "<devlearn.Learner: " + std::to_string(self.situations_experienced()) +
-               " situations, " + std::to_string(self.explored_count()) + " mappings explored, " +
-               std::to_string(self.effective_count()) + " effective>";
+      .def_property_readonly(
+          "pending", [](Idle self) { return self->pending(); },
+          "The choice that waits for its outcome, or None.")
+      .def("__repr__", [](Idle self) {
+        return "<devlearn.Learner: " + std::to_string(self->situations_experienced()) +
+               " situations, " + std::to_string(self->explored_count()) + " mappings explored, " +
+               std::to_string(self->effective_count()) + " effective>";
       });
 }
 

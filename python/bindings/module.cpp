@@ -1,15 +1,6 @@
 #include "bindings.hpp"
 #include "devlearn/version.hpp"
 
-namespace devlearn::python {
-
-std::recursive_mutex& Turn::mutex() {
-  static std::recursive_mutex of_process;
-  return of_process;
-}
-
-}  // namespace devlearn::python
-
 PYBIND11_MODULE(_core, m) {
   m.doc() = "The C++ core of devlearn. Use it through the package `devlearn`.";
   m.attr("__version__") = devlearn::version();

@@ -118,6 +118,7 @@ RecordObject run_phase(py::object& self, bool echoes, const Phase& phase) {
                            }};
   Record record;
   try {
+    const InRun in_run(trial.learner());
     const Turn turn;
     phase(trial, record, options);
   } catch (...) {
@@ -233,7 +234,14 @@ void bind_trial(py::module_& m) {
           }),
           py::arg("world"), py::arg("config") = py::none(), py::arg("seed") = 0,
           py::arg("agent") = py::none())
-      .def("step", &Trial::step, py::call_guard<Turn>(), "One tick of the loop.")
+      .def(
+          "step",
+          [](Trial& self) {
+            const InRun in_run(self.learner());
+            const Turn turn;
+            return self.step();
+          },
+          "One tick of the loop.")
       .def(
           "run",
           [](py::object& self, Whole<StepsTag> steps, bool echoes) {

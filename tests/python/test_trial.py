@@ -5,6 +5,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import threading
 import time
 
@@ -578,3 +579,50 @@ def test_parts_of_a_trial_outlive_it(paper):
     robot, learner = (lambda trial: (trial.robot, trial.learner))(Trial(paper, seed=1))
     assert robot.sonar(paper.start).shape == (5,)
     assert learner.choose(3).kind == Kind.EXPLORE
+
+
+def test_a_learner_that_another_threads_run_has_in_hand_is_refused(paper):
+    trial = devlearn.Trial(paper, seed=1)
+    copied, refusals, running = trial.learner.copy(), [], threading.Event()
+
+    def look():
+        running.wait()
+        while running.is_set():
+            for call in (trial.learner.situations, trial.learner.copy):
+                try:
+                    call()
+                except devlearn.InvalidValue as refusal:
+                    refusals.append(refusal.quantity)
+            copied.situations()
+
+    thread = threading.Thread(target=look)
+    thread.start()
+    running.set()
+    record = trial.free_learning(200_000)
+    running.clear()
+    thread.join()
+    assert set(refusals) == {"Learner"}
+    alone = devlearn.Trial(paper, seed=1).free_learning(200_000)
+    assert np.array_equal(record.motion, alone.motion)
+
+
+def test_who_waits_for_another_threads_run_hears_ctrl_c(paper):
+    script = """
+import os, signal, threading, time, devlearn
+paper = devlearn.World.load("paper")
+running = threading.Event()
+def run():
+    running.set()
+    devlearn.Trial(paper).free_learning(10_000_000)
+threading.Thread(target=run, daemon=True).start()
+running.wait()
+time.sleep(0.2)
+threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
+began = time.monotonic()
+try:
+    devlearn.Robot(paper).sonar((2.0, 0.5, 0.0))
+except KeyboardInterrupt:
+    os._exit(0 if time.monotonic() - began < 1.0 else 1)
+os._exit(2)
+"""
+    assert subprocess.run([sys.executable, "-c", script]).returncode == 0
