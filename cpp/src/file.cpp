@@ -1,9 +1,11 @@
 #include "file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -30,31 +32,62 @@ std::string place_of(const std::string& path) {
   return place.empty() ? path : place.string();
 }
 
-// A rename is on the disk once its folder is. Where a folder cannot be flushed (some network file
-// systems), the file is whole all the same.
-void flush_folder(const std::string& place) {
+// A rename is on the disk once its folder is. False, with errno, where the disk fails; where a
+// folder cannot be opened or flushed at all (some network file systems), the file is whole all the
+// same.
+bool flush_folder(const std::string& place) {
   const std::filesystem::path folder = std::filesystem::path(place).parent_path();
   const int descriptor =
       ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
+  if (descriptor < 0) return true;
+  const int failed = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
+  errno = failed;
+  return failed == 0 || failed == EINVAL || failed == ENOTSUP;
+}
+
+bool is_named(int descriptor, const std::string& name) {
+  struct stat open {
+  }, named{};
+  return ::fstat(descriptor, &open) == 0 && ::stat(name.c_str(), &named) == 0 &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+// A file of this name, empty, and locked until it is closed; -1, with errno, where there is none.
+int open_locked(const std::string& name) {
+  for (;;) {
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor < 0) return -1;
+    int failed = 0;
+    while (::flock(descriptor, LOCK_EX) != 0) {
+      if (errno == EINTR) continue;
+      failed = errno;
+      break;
+    }
+    // Who held the lock before may have renamed or removed the file that was opened.
+    const bool ours = failed == 0 && is_named(descriptor, name);
+    if (ours && ::ftruncate(descriptor, 0) == 0) return descriptor;
+    if (ours) failed = errno;
+    ::close(descriptor);
+    errno = failed;
+    if (failed != 0) return -1;
+  }
 }
 
 }  // namespace
 
-SideFile::SideFile(const std::string& path) : path_(path), place_(place_of(path)) {
-  static std::atomic<unsigned> count{0};
-  do {
-    side_ = place_ + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
-    descriptor_ = ::open(side_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  } while (descriptor_ < 0 && errno == EEXIST);
+SideFile::SideFile(const std::string& path)
+    : path_(path),
+      place_(place_of(path)),
+      side_(place_ + ".devlearn-tmp"),
+      descriptor_(open_locked(side_)) {
   if (descriptor_ < 0) refuse();
 }
 
 SideFile::~SideFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  if (!side_.empty()) ::unlink(side_.c_str());
+  if (descriptor_ < 0) return;
+  ::unlink(side_.c_str());
+  ::close(descriptor_);
 }
 
 void SideFile::write(const void* data, std::size_t size) {
@@ -71,12 +104,39 @@ void SideFile::write(const void* data, std::size_t size) {
 
 void SideFile::commit() {
   if (::fsync(descriptor_) != 0) refuse();
-  if (::close(std::exchange(descriptor_, -1)) != 0) refuse();
   if (::rename(side_.c_str(), place_.c_str()) != 0) refuse();
-  side_.clear();
-  flush_folder(place_);
+  ::close(std::exchange(descriptor_, -1));
+  if (!flush_folder(place_)) refuse();
 }
 
 void SideFile::refuse() const { throw FileError(path_, "", std::strerror(errno), kWritable); }
+
+// --- reading -------------------------------------------------------------------------------------
+
+std::vector<std::byte> bytes_of_file(const std::string& path) {
+  constexpr const char* kReadable = "a file that can be read";
+  const auto refuse = [&](const char* what) { throw FileError(path, "", what, kReadable); };
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) refuse(std::strerror(errno));
+  struct Closed {
+    int descriptor;
+    ~Closed() { ::close(descriptor); }
+  } const closed{descriptor};
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) refuse(std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) refuse(std::strerror(EISDIR));
+  if (!S_ISREG(status.st_mode)) refuse("not a regular file");
+
+  std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
+  std::size_t size = 0;
+  while (size < bytes.size()) {
+    const auto count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
+    if (count < 0 && errno != EINTR) refuse(std::strerror(errno));
+    if (count == 0) break;  // it was cut off meanwhile
+    if (count > 0) size += static_cast<std::size_t>(count);
+  }
+  bytes.resize(size);
+  return bytes;
+}
 
 }  // namespace devlearn

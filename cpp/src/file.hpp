@@ -2,11 +2,14 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace devlearn {
 
-/// A file on the side that either takes the place of `path` as a whole or goes away, so that a full
-/// disk or a kill at any moment leaves the previous file whole.
+/// A file on the side, `path` with ".devlearn-tmp" after it, that either takes the place of `path`
+/// as a whole or goes away, so that a full disk or a kill at any moment leaves the previous file
+/// whole. It is locked while it is written: who saves to the same path at once waits, and one that
+/// a kill left behind is written anew by the next.
 class SideFile {
  public:
   /// Throws FileError where no file can be made there.
@@ -16,7 +19,8 @@ class SideFile {
   SideFile& operator=(const SideFile&) = delete;
 
   void write(const void* data, std::size_t size);
-  /// Flushes to the disk, renames, flushes the folder. Throws FileError; then nothing has changed.
+  /// Flushes to the disk, renames, flushes the folder. Throws FileError; then nothing has changed,
+  /// unless it was the folder that could not be flushed.
   void commit();
 
  private:
@@ -25,5 +29,8 @@ class SideFile {
   std::string path_, place_, side_;
   int descriptor_ = -1;
 };
+
+/// The whole of a regular file, in memory bounded by its size. Throws FileError.
+std::vector<std::byte> bytes_of_file(const std::string& path);
 
 }  // namespace devlearn

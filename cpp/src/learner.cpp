@@ -70,7 +70,9 @@ void require_partition(const LearnerMemory& all, std::size_t i, int motion_count
 void require_orientations(const LearnerMemory& all, std::size_t i, std::size_t first) {
   double sum = 0.0;
   for (std::size_t j = first; j < first + all.effective_count[i]; ++j) {
-    require_in("memory.orientation[" + std::to_string(j) + "]", all.orientation[j], 0.0, 1.0);
+    if (!(all.orientation[j] >= 0.0 && all.orientation[j] <= 1.0)) {
+      refuse_memory("orientation", j, to_text(all.orientation[j]), "in [0, 1]");
+    }
     if (all.times_learned[j] < 1) refuse_memory("times_learned", j, "0", "at least 1");
     sum += all.orientation[j];
   }

@@ -3,32 +3,92 @@
 #include <string>
 #include <vector>
 
+#include "devlearn/error.hpp"
 #include "devlearn/learner.hpp"
 #include "safetensors.hpp"
 
 // How a learner's state stands in a snapshot, its own or a trial's.
 namespace devlearn {
 
-/// Adds the state's entries and arrays. The arrays point into `state` and `random`.
-void describe(const LearnerState& state, const std::vector<std::uint64_t>& random,
-              safetensors::Metadata& metadata, safetensors::Arrays& arrays);
+/// A snapshot's first entries: its format and version, and devlearn's.
+safetensors::Metadata preamble(const std::string& format, std::uint64_t version);
+/// Throws FileError unless the contents are of this format, of a version up to this one.
+void require_format(const safetensors::Contents& contents, const std::string& format,
+                    std::uint64_t version, const std::string& source);
 
+/// Adds the state's entries and arrays, which point into `state`.
+void describe(const LearnerState& state, safetensors::Contents& contents);
 /// The reverse, checked against every law by building the learner. Throws FileError.
 Learner learner_of(const safetensors::Contents& contents, const std::string& source);
 
-/// Entries that every snapshot has: its format and version, and devlearn's.
-safetensors::Metadata preamble(const std::string& format);
-/// Throws FileError unless the contents are of this format, and of a version that is known.
-void require_format(const safetensors::Contents& contents, const std::string& format,
-                    const std::string& source);
+/// A generator's state. Throws FileError.
+Random::State random_of(const safetensors::Contents& contents, const std::string& source);
 
-/// Values in a metadata entry. Throw FileError.
-double number_entry(const safetensors::Contents& contents, const std::string& name,
-                    const std::string& source);
-std::uint64_t whole_entry(const safetensors::Contents& contents, const std::string& name,
-                          const std::string& source);
+/// Writes values as metadata entries: numbers so that they read back to the bit.
+class EntryWriter {
+ public:
+  explicit EntryWriter(safetensors::Metadata& metadata) : metadata_(metadata) {}
+  void operator()(const std::string& name, double value);
+  void operator()(const std::string& name, std::uint64_t value);
+  void operator()(const std::string& name, int value);
+  void operator()(const std::string& name, bool value);
+  template <typename Enum>
+  void operator()(const std::string& name, Enum value, const std::vector<std::string>& names) {
+    metadata_[name] = names.at(static_cast<std::size_t>(value));
+  }
 
-/// The whole of a file, bounded by its size. Throws FileError.
-std::vector<std::byte> read_file(const std::string& path);
+ private:
+  safetensors::Metadata& metadata_;
+};
+
+/// The reverse. Throws FileError for an entry that is missing or of another kind.
+class EntryReader {
+ public:
+  EntryReader(const safetensors::Contents& contents, const std::string& source)
+      : contents_(contents), source_(source) {}
+  void operator()(const std::string& name, double& value) const;
+  void operator()(const std::string& name, std::uint64_t& value) const;
+  void operator()(const std::string& name, std::int64_t& value) const;
+  void operator()(const std::string& name, int& value) const;
+  void operator()(const std::string& name, bool& value) const;
+  template <typename Enum>
+  void operator()(const std::string& name, Enum& value,
+                  const std::vector<std::string>& names) const {
+    value = static_cast<Enum>(option(name, names));
+  }
+  bool has(const std::string& name) const { return contents_.metadata.count(name) > 0; }
+
+ private:
+  template <typename T>
+  void number(const std::string& name, T& value, const char* allowed) const;
+  std::size_t option(const std::string& name, const std::vector<std::string>& names) const;
+
+  const safetensors::Contents& contents_;
+  const std::string& source_;
+};
+
+/// Every field of a learner's configuration, for either of them.
+template <typename Config, typename Entries>
+void each_field(Config& config, const std::string& prefix, Entries& entries) {
+  entries(prefix + "motion_count", config.motion_count);
+  entries(prefix + "eta", config.eta);
+  entries(prefix + "sigma", config.sigma);
+  entries(prefix + "c1", config.c1);
+  entries(prefix + "c2", config.c2);
+  entries(prefix + "on_negative", config.on_negative, {"abandon", "weaken"});
+  entries(prefix + "when_exhausted", config.when_exhausted, {"retry", "wander"});
+}
+
+/// What `make` makes of a file's values; what it refuses is refused as the file's fault.
+template <typename Make>
+auto made_of(const std::string& source, const Make& make) -> decltype(make()) {
+  try {
+    return make();
+  } catch (const FileError&) {
+    throw;
+  } catch (const InvalidValue& error) {
+    throw FileError(source, error.quantity(), error.value(), error.allowed());
+  }
+}
 
 }  // namespace devlearn

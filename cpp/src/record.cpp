@@ -1,6 +1,11 @@
 #include "devlearn/record.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <string>
+
+#include "devlearn/error.hpp"
+#include "record_columns.hpp"
 
 namespace devlearn {
 namespace {
@@ -16,9 +21,22 @@ void make_room(Columns&... columns) {
   (grow(columns), ...);
 }
 
+// Calls for a whole number in [least, most] everywhere in a column.
+template <typename T>
+void require_each(const std::string& name, const std::vector<T>& column, T least, T most) {
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (column[i] >= least && column[i] <= most) continue;
+    require_count("record." + name + "[" + std::to_string(i) + "]", column[i], least, most);
+  }
+}
+
 }  // namespace
 
 void Record::begin_round(std::int32_t number, const Pose& pose) {
+  if (!rounds.empty() && rounds.back().round == number &&
+      Pose{x.back(), y.back(), heading.back()} == pose) {
+    return;
+  }
   make_room(rounds, x, y, heading);
   rounds.push_back({number, 0, false});
   x.push_back(pose.x);
@@ -49,6 +67,47 @@ void Record::append(const StepRecord& step) {
   heading.push_back(step.pose.heading);
   rounds.back().steps += 1;
   rounds.back().arrived |= step.arrived;
+}
+
+void Record::validate() const {
+  std::size_t step = 0;
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    const std::string name = "record.rounds[" + std::to_string(i) + "]";
+    require_count(name + ".round", rounds[i].round, 1, std::numeric_limits<std::int32_t>::max());
+    require_count(name + ".steps", rounds[i].steps, 0, static_cast<long long>(steps() - step));
+    step += static_cast<std::size_t>(rounds[i].steps);
+  }
+  if (step != steps()) {
+    throw InvalidValue("record.rounds.steps", "a sum of " + std::to_string(step),
+                       std::to_string(steps()) + ", the number of steps");
+  }
+  const auto require_size = [](const char* name, std::size_t size, std::size_t expected) {
+    if (size == expected) return;
+    throw InvalidValue("record." + std::string(name), std::to_string(size) + " values",
+                       std::to_string(expected) + " values");
+  };
+  each_step_column(*this, [&](const char* name, const auto& column, const char*) {
+    require_size(name, column.size(), steps());
+  });
+  each_pose_column(*this, [&](const char* name, const auto& column, const char*) {
+    require_size(name, column.size(), steps() + rounds.size());
+  });
+  require_count("record.sonar_count", sonar_count, 0, 720);
+  require_size("echoes", echoes.size(), steps() * static_cast<std::size_t>(sonar_count));
+
+  constexpr std::uint8_t kNo = 0, kYes = 1;
+  constexpr std::int32_t kLargest = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int64_t kLargest64 = std::numeric_limits<std::int64_t>::max();
+  require_each("round", round, 1, kLargest);
+  require_each("situation", situation, std::int64_t{0}, kLargest64);
+  require_each("motion", motion, 0, kLargest);
+  require_each("kind", kind, kNo, static_cast<std::uint8_t>(Kind::kUnstated));
+  require_each("collided", collided, kNo, kYes);
+  require_each("arrived", arrived, kNo, kYes);
+  require_each("event", event, kNo, static_cast<std::uint8_t>(Event::kAbandonment));
+  require_each("reduced", reduced, 0, kLargest);
+  require_each("explored_count", explored_count, std::int64_t{0}, kLargest64);
+  require_each("effective_count", effective_count, std::int64_t{0}, kLargest64);
 }
 
 }  // namespace devlearn

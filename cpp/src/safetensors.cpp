@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <istream>
 #include <limits>
+#include <ostream>
 #include <set>
 
 #include "devlearn/error.hpp"
+#include "excerpt.hpp"
+#include "file.hpp"
 
 namespace devlearn::safetensors {
 namespace {
@@ -78,7 +82,7 @@ class Reader {
   }
 
   void expect(char letter) {
-    if (peek() != letter) refuse(next_ == end_ ? "the end" : std::string(1, *next_), {letter});
+    if (peek() != letter) refuse(next_ == end_ ? "the end" : excerpt({*next_}), {letter});
     ++next_;
   }
 
@@ -104,7 +108,7 @@ class Reader {
     std::set<std::string> keys;
     list('{', '}', [&] {
       const std::string key = string();
-      if (!keys.insert(key).second) refuse("the key " + key + " again", "each key once");
+      if (!keys.insert(key).second) refuse("the key " + excerpt(key) + " again", "each key once");
       expect(':');
       member(key);
     });
@@ -220,7 +224,7 @@ struct Range {
 std::uint64_t bytes_of(const Array& array, const std::string& field, const std::string& source) {
   std::uint64_t bytes = size_of(array.dtype);
   if (bytes == 0) {
-    throw FileError(source, field + ".dtype", array.dtype,
+    throw FileError(source, field + ".dtype", excerpt(array.dtype),
                     "one of F64, I64, U64, I32, U32, U16, U8, BOOL");
   }
   for (const std::uint64_t length : array.shape) {
@@ -262,6 +266,12 @@ template <>
 const char* dtype_of<std::uint8_t>() {
   return "U8";
 }
+template <>
+const char* dtype_of<bool>() {
+  return "BOOL";
+}
+
+namespace {
 
 // The largest elements first, so that every array is aligned to its own.
 std::vector<const Array*> in_order(const Arrays& arrays) {
@@ -273,6 +283,7 @@ std::vector<const Array*> in_order(const Arrays& arrays) {
   return order;
 }
 
+// Eight bytes of length, and the header.
 std::vector<std::byte> header(Metadata metadata, const Arrays& arrays) {
   metadata[kChecksum] = std::string(kChecksumDigits, '0');
   std::string text = "{" + quoted(kMetadata) + ":{";
@@ -312,6 +323,44 @@ std::vector<std::byte> header(Metadata metadata, const Arrays& arrays) {
     bytes[i] = static_cast<std::byte>(text.size() >> (8 * i) & 255);
   }
   std::memcpy(bytes.data() + kLengthBytes, text.data(), text.size());
+  return bytes;
+}
+
+}  // namespace
+
+void write(const Contents& contents, const Write& write) {
+  const std::vector<std::byte> head = header(contents.metadata, contents.arrays);
+  write(head.data(), head.size());
+  for (const Array* array : in_order(contents.arrays)) write(array->data, array->bytes);
+}
+
+void write(const Contents& contents, const std::string& path) {
+  SideFile file(path);
+  write(contents, [&](const std::byte* data, std::size_t size) { file.write(data, size); });
+  file.commit();
+}
+
+void write(const Contents& contents, std::ostream& stream) {
+  write(contents, [&](const std::byte* data, std::size_t size) {
+    stream.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  });
+}
+
+std::vector<std::byte> to_bytes(const Contents& contents) {
+  std::vector<std::byte> bytes;
+  write(contents, [&](const std::byte* data, std::size_t size) {
+    bytes.insert(bytes.end(), data, data + size);
+  });
+  return bytes;
+}
+
+std::vector<std::byte> read_stream(std::istream& stream) {
+  std::vector<std::byte> bytes;
+  char part[1 << 16];
+  while (stream.read(part, sizeof part), stream.gcount() > 0) {
+    const auto* const data = reinterpret_cast<const std::byte*>(part);
+    bytes.insert(bytes.end(), data, data + stream.gcount());
+  }
   return bytes;
 }
 
@@ -360,15 +409,15 @@ Contents read(const std::byte* bytes, std::size_t size, const std::string& sourc
       } else if (key == "data_offsets") {
         reader.list('[', ']', [&] { offsets.push_back(reader.whole_number()); });
       } else {
-        reader.refuse("the key " + key, "dtype, shape and data_offsets");
+        reader.refuse("the key " + excerpt(key), "dtype, shape and data_offsets");
       }
     });
     if (offsets.size() != 2 || offsets[0] > offsets[1] || offsets[1] > data_size) {
-      refuse(name + ".data_offsets", "a range outside the file",
+      refuse(excerpt(name) + ".data_offsets", "a range outside the file",
              "[begin, end] within the " + std::to_string(data_size) + " bytes of data");
     }
-    if (bytes_of(array, name, source) != offsets[1] - offsets[0]) {
-      refuse(name + ".shape", std::to_string(offsets[1] - offsets[0]) + " bytes",
+    if (bytes_of(array, excerpt(name), source) != offsets[1] - offsets[0]) {
+      refuse(excerpt(name) + ".shape", std::to_string(offsets[1] - offsets[0]) + " bytes",
              "as many as dtype and shape make");
     }
     array.data = data + offsets[0];
@@ -384,7 +433,7 @@ Contents read(const std::byte* bytes, std::size_t size, const std::string& sourc
   std::uint64_t covered = 0;
   for (const auto& [range, name] : ranges) {
     if (range.begin != covered) {
-      refuse(name + ".data_offsets", std::to_string(range.begin),
+      refuse(excerpt(name) + ".data_offsets", std::to_string(range.begin),
              std::to_string(covered) + ": arrays side by side");
     }
     covered = range.end;
@@ -395,14 +444,14 @@ Contents read(const std::byte* bytes, std::size_t size, const std::string& sourc
 
   // Over the header with the checksum's digits as zeros, and the data.
   const std::string& found = entry(contents, kChecksum, source);
-  if (found.size() != kChecksumDigits) refuse(kChecksum, found, "16 hexadecimal digits");
+  if (found.size() != kChecksumDigits) refuse(kChecksum, excerpt(found), "16 hexadecimal digits");
   std::string zeroed(text, length);
   zeroed.replace(checksum_at, kChecksumDigits, kChecksumDigits, '0');
   const std::uint64_t hash =
       fnv(data, data_size,
           fnv(reinterpret_cast<const std::byte*>(zeroed.data()), zeroed.size(), kFnvStart));
   if (found != hexadecimal(hash)) {
-    refuse(kChecksum, found, hexadecimal(hash) + "; the file was damaged");
+    refuse(kChecksum, excerpt(found), hexadecimal(hash) + "; the file was damaged");
   }
   return contents;
 }
@@ -416,35 +465,20 @@ const std::string& entry(const Contents& contents, const std::string& name,
   return found->second;
 }
 
-template <typename T>
-std::vector<T> values(const Contents& contents, const std::string& name,
-                      const std::vector<std::uint64_t>& shape, const std::string& source) {
+const Array& array(const Contents& contents, const std::string& name, const char* dtype,
+                   const std::vector<std::uint64_t>& shape, const std::string& source) {
   const auto found = contents.arrays.find(name);
   if (found == contents.arrays.end()) throw FileError(source, name, "nothing", "an array");
+  const auto shown = [](const std::string& type, const std::vector<std::uint64_t>& lengths) {
+    std::string text = type;
+    for (const std::uint64_t length : lengths) text += " x " + std::to_string(length);
+    return text;
+  };
   const Array& array = found->second;
-  if (array.dtype != dtype_of<T>() || array.shape != shape) {
-    std::string expected = dtype_of<T>();
-    for (const std::uint64_t length : shape) expected += " x " + std::to_string(length);
-    throw FileError(source, name, "another type or shape", expected);
+  if (array.dtype != dtype || array.shape != shape) {
+    throw FileError(source, name, excerpt(shown(array.dtype, array.shape)), shown(dtype, shape));
   }
-  std::vector<T> result(array.bytes / sizeof(T));
-  if (array.bytes > 0) std::memcpy(result.data(), array.data, array.bytes);
-  return result;
+  return array;
 }
-
-template std::vector<double> values(const Contents&, const std::string&,
-                                    const std::vector<std::uint64_t>&, const std::string&);
-template std::vector<std::int64_t> values(const Contents&, const std::string&,
-                                          const std::vector<std::uint64_t>&, const std::string&);
-template std::vector<std::uint64_t> values(const Contents&, const std::string&,
-                                           const std::vector<std::uint64_t>&, const std::string&);
-template std::vector<std::int32_t> values(const Contents&, const std::string&,
-                                          const std::vector<std::uint64_t>&, const std::string&);
-template std::vector<std::uint32_t> values(const Contents&, const std::string&,
-                                           const std::vector<std::uint64_t>&, const std::string&);
-template std::vector<std::uint16_t> values(const Contents&, const std::string&,
-                                           const std::vector<std::uint64_t>&, const std::string&);
-template std::vector<std::uint8_t> values(const Contents&, const std::string&,
-                                          const std::vector<std::uint64_t>&, const std::string&);
 
 }  // namespace devlearn::safetensors

@@ -15,6 +15,8 @@ constexpr double kCollisionSmf = -1.0;
 
 constexpr std::int64_t kStepsBetweenInterrupts = 8;
 
+constexpr std::int64_t kLastRound = std::int64_t{1} << 30;
+
 // One call at a time: an agent that calls its trial back would pull the step from under itself.
 class OneCall {
  public:
@@ -196,7 +198,15 @@ void Trial::place(const Pose& pose) {
   put(pose);
 }
 
+void Trial::resume(const Pose& pose, std::int32_t round) {
+  const OneCall call(under_way_);
+  require_count("round", round, 0, kLastRound);
+  put(pose);
+  round_ = round;
+}
+
 void Trial::put(const Pose& pose) {
+  require_count("round", std::int64_t{round_} + 1, 1, kLastRound + 1);
   robot_.require_place(pose);
   const State state = sense(pose);
   pose_ = pose;
@@ -227,6 +237,13 @@ void Trial::path_learning(Record& record, std::int64_t rounds, std::int64_t step
     put(world().def().start);
     if (!run_on(record, step_limit, true, options)) return;
   }
+}
+
+void Trial::finish_round(Record& record, std::int64_t steps, const RunOptions& options) {
+  require_count("steps", steps, 0, std::int64_t{1} << 40);
+  const OneCall call(under_way_);
+  round_ = std::max(round_, 1);
+  run_on(record, steps, true, options);
 }
 
 // Steps of the present round, into the record; false where it was interrupted.
@@ -262,6 +279,12 @@ Record Trial::path_learning(std::int64_t rounds, std::int64_t step_limit,
                             const RunOptions& options) {
   Record record;
   path_learning(record, rounds, step_limit, options);
+  return record;
+}
+
+Record Trial::finish_round(std::int64_t steps, const RunOptions& options) {
+  Record record;
+  finish_round(record, steps, options);
   return record;
 }
 

@@ -12,6 +12,7 @@
 
 #include "devlearn/error.hpp"
 #include "devlearn/world.hpp"
+#include "excerpt.hpp"
 #include "file.hpp"
 #include "world_text.hpp"
 
@@ -28,15 +29,6 @@ constexpr std::size_t kMostElements = 100'000;  // of an array
 constexpr std::size_t kMostFields = 32;         // of an object
 
 // --- reading -----------------------------------------------------------------------------------
-
-// Text of unknown origin, cut and in ASCII, fit for a message.
-std::string excerpt(std::string text) {
-  constexpr std::size_t kLongest = 160;
-  if (text.size() > kLongest) text.replace(kLongest, std::string::npos, "...");
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text;
-}
 
 std::string shown(const json& value) {
   if (value.is_object()) return "an object";

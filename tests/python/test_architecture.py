@@ -25,7 +25,7 @@ def library(name):
 CORE_SOURCES, CORE_HEADERS = library("core")
 SIM_SOURCES, SIM_HEADERS = library("sim")
 # The C++ library cannot flush a file to the disk.
-OPERATING_SYSTEM = {"fcntl.h", "unistd.h"}
+OPERATING_SYSTEM = {"fcntl.h", "unistd.h", "sys/file.h", "sys/stat.h"}
 
 
 def includes(path):

@@ -61,8 +61,11 @@ class RandomAgent final : public Agent {
  public:
   /// seed: of the stream "agent".
   explicit RandomAgent(std::uint64_t seed) : random_(seed, "agent") {}
+  /// One that goes on from a generator.
+  explicit RandomAgent(const Random& random) : random_(random) {}
   Choice choose(const Observation& observation) override;
   Development observe(const Outcome& outcome) override;
+  const Random& random() const noexcept { return random_; }
 
  private:
   Random random_;

@@ -56,10 +56,15 @@ struct Record {
 
   std::size_t steps() const noexcept { return situation.size(); }
 
-  /// Begins a round: its number and the pose it begins from.
+  /// Begins a round: its number and the pose it begins from. Where the last round has this number
+  /// and ended at this pose, that one goes on.
   void begin_round(std::int32_t number, const Pose& pose);
   /// Appends a step to the round begun last.
   void append(const StepRecord& step);
+
+  /// Throws InvalidValue, naming the column, unless all are of the length that the rounds make and
+  /// hold what a trial can write: rounds from 1, counts at least 0, known kinds and events.
+  void validate() const;
 };
 
 }  // namespace devlearn

@@ -74,20 +74,30 @@ class Trial {
   Record path_learning(std::int64_t rounds, std::int64_t step_limit = 10000,
                        const RunOptions& options = {});
 
+  /// Goes on with the present round until the target is reached, for at most `steps` steps: what
+  /// finishes a round of path learning that was interrupted.
+  Record finish_round(std::int64_t steps, const RunOptions& options = {});
+
   /// The same, appended to a record: what is finished is kept there even where an agent throws.
   void run(Record& record, std::int64_t steps, const RunOptions& options = {});
   void free_learning(Record& record, std::int64_t steps, const RunOptions& options = {});
   void path_learning(Record& record, std::int64_t rounds, std::int64_t step_limit,
                      const RunOptions& options = {});
+  void finish_round(Record& record, std::int64_t steps, const RunOptions& options = {});
 
   /// Puts the robot at the start pose for a new round.
   void begin_round();
   /// Puts the robot anywhere it fits for a new round. Throws InvalidValue.
   void place(const Pose& pose);
+  /// Puts the robot where it was in a round, 0 before the first: what goes on from a snapshot.
+  /// Throws InvalidValue.
+  void resume(const Pose& pose, std::int32_t round);
 
   const Pose& pose() const noexcept { return pose_; }
   /// The present round, from 1; 0 before the first.
   std::int32_t round() const noexcept { return round_; }
+  /// Whether a call is under way, as its agent may see.
+  bool under_way() const noexcept { return under_way_; }
   /// Whether the robot is at the target: d_g <= goal_radius.
   bool arrived() const noexcept { return state_.arrived; }
   const World& world() const noexcept { return robot_.world(); }

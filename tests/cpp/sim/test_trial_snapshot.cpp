@@ -1,0 +1,366 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "../core/refusal.hpp"
+#include "../core/snapshot_bytes.hpp"
+#include "devlearn/snapshot.hpp"
+#include "devlearn/trial_snapshot.hpp"
+
+using namespace devlearn;
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+World shipped(const std::string& name) {
+  return World::load(std::string(DEVLEARN_SOURCE_DIR) + "/python/devlearn/worlds/" + name +
+                     ".json");
+}
+
+TrialConfig sonar_config() {
+  TrialConfig config = TrialConfig::step5();
+  config.clearance_source = ClearanceSource::kSonar;
+  config.walls_count = true;
+  config.learner.sigma = 0.123456789012345678;
+  return config;
+}
+
+TrialSnapshot loaded(const Bytes& bytes, std::shared_ptr<Agent> agent = nullptr) {
+  return load_trial(bytes.data(), bytes.size(), std::move(agent), "it");
+}
+
+// Equal in all that is in a snapshot, to the bit.
+bool same(const Trial& a, const Record& record_a, const Trial& b, const Record& record_b) {
+  return to_bytes(a, {&record_a, true, ""}) == to_bytes(b, {&record_b, true, ""});
+}
+
+void require_equal_futures(Trial a, Trial b) {
+  Record record_a, record_b;
+  for (auto [trial, record] : {std::pair(&a, &record_a), std::pair(&b, &record_b)}) {
+    trial->run(*record, 300);
+    trial->free_learning(*record, 500);
+    trial->path_learning(*record, 3, 400);
+  }
+  REQUIRE(same(a, record_a, b, record_b));
+}
+
+// A trial that has lived, with contacts, and its record.
+struct Lived {
+  Trial trial{shipped("paper"), TrialConfig{}, 7};
+  Record record;
+  Lived() {
+    const RunOptions echoes{true, {}};
+    trial.free_learning(record, 1500, echoes);
+    trial.path_learning(record, 2, 300, echoes);
+  }
+  Bytes bytes() const { return to_bytes(trial, {&record, true, ""}); }
+};
+
+// Which field is refused.
+std::string refusal(const Bytes& bytes) {
+  try {
+    loaded(bytes);
+  } catch (const FileError& error) {
+    CHECK(error.file() == "it");
+    CHECK_FALSE(error.allowed().empty());
+    return error.field().empty() ? "the file" : error.field();
+  }
+  return "";
+}
+
+// Goes to and fro; nothing of ours knows how to save it.
+class Own final : public Agent {
+ public:
+  Choice choose(const Observation&) override { return {steps++ % 5, Kind::kUnstated}; }
+  Development observe(const Outcome&) override {
+    if (observing) observing();
+    return {};
+  }
+  int steps = 0;
+  std::function<void()> observing;
+};
+
+}  // namespace
+
+TEST_CASE("a trial that is loaded goes on equal to the bit") {
+  for (const char* world : {"paper", "u_trap"}) {
+    for (const TrialConfig& config : {TrialConfig{}, sonar_config()}) {
+      Trial trial(shipped(world), config, 3);
+      Record record;
+      trial.free_learning(record, 1200);
+      REQUIRE(std::count(record.collided.begin(), record.collided.end(), 1) > 0);
+      TrialSnapshot snapshot = loaded(to_bytes(trial));
+      CHECK_FALSE(snapshot.record.has_value());
+      CHECK(snapshot.trial.config() == config);
+      CHECK(snapshot.trial.seed() == 3);
+      CHECK(snapshot.trial.pose() == trial.pose());
+      CHECK(snapshot.trial.round() == 1);
+      CHECK(snapshot.trial.world().to_json() == trial.world().to_json());
+      require_equal_futures(std::move(trial), std::move(snapshot.trial));
+    }
+  }
+}
+
+TEST_CASE("a trial that has not begun survives, too") {
+  Trial trial(shipped("office"), {}, 1);
+  TrialSnapshot snapshot = loaded(to_bytes(trial));
+  CHECK(snapshot.trial.round() == 0);
+  require_equal_futures(std::move(trial), std::move(snapshot.trial));
+}
+
+TEST_CASE("random motions go on as they would have") {
+  Trial trial(shipped("empty"), {}, 1, std::make_shared<RandomAgent>(5));
+  trial.free_learning(100);
+  TrialSnapshot snapshot = loaded(to_bytes(trial));
+  CHECK(snapshot.trial.learner() == nullptr);
+  require_equal_futures(std::move(trial), std::move(snapshot.trial));
+}
+
+TEST_CASE("a trial and its learner keep configurations and seeds of their own") {
+  LearnerConfig other;
+  other.sigma = 0.7;
+  const auto agent = std::make_shared<LearnerAgent>(std::make_shared<Learner>(other, 99));
+  const Trial trial(shipped("empty"), {}, 4, agent);
+  const TrialSnapshot snapshot = loaded(to_bytes(trial));
+  CHECK(snapshot.trial.seed() == 4);
+  CHECK(snapshot.trial.config() == TrialConfig{});
+  CHECK(snapshot.trial.learner()->seed() == 99);
+  CHECK(snapshot.trial.learner()->config() == other);
+}
+
+TEST_CASE("path learning stopped anywhere goes on so that the joined record is the unbroken one") {
+  constexpr std::int64_t kRounds = 8, kLimit = 1500;
+  Trial unbroken(shipped("paper"), {}, 2);
+  Record whole;
+  unbroken.free_learning(whole, 6000, {true, {}});
+  unbroken.path_learning(whole, kRounds, kLimit, {true, {}});
+  REQUIRE(std::count_if(whole.rounds.begin(), whole.rounds.end(),
+                        [](const Round& round) { return round.arrived; }) > 4);
+  REQUIRE(whole.steps() > 6000 + 8 * 200);
+
+  for (int looks = 1; looks < 1000; looks += 1 + looks / 2) {
+    Trial trial(shipped("paper"), {}, 2);
+    Record record;
+    trial.free_learning(record, 6000, {true, {}});
+    int look = 0;
+    trial.path_learning(record, kRounds, kLimit, {true, [&] { return ++look == looks; }});
+    const Bytes bytes = to_bytes(trial, {&record, true, ""});
+
+    TrialSnapshot snapshot = loaded(bytes);
+    Trial& resumed = snapshot.trial;
+    Record& joined = *snapshot.record;
+    REQUIRE(same(trial, record, resumed, joined));
+    resumed.finish_round(joined, kLimit - joined.rounds.back().steps, {true, {}});
+    const auto finished = static_cast<std::int64_t>(joined.rounds.size()) - 1;
+    resumed.path_learning(joined, kRounds - finished, kLimit, {true, {}});
+    REQUIRE(same(resumed, joined, unbroken, whole));
+  }
+}
+
+TEST_CASE("an agent of one's own is refused with what to do, and takes its place when loading") {
+  const auto own = std::make_shared<Own>();
+  Trial trial(shipped("empty"), {}, 1, own);
+  trial.free_learning(33);
+  const std::string path = std::string(DEVLEARN_BINARY_DIR) + "/own.safetensors";
+  std::remove(path.c_str());
+  for (const auto& saving : {std::function<void()>([&] { save(trial, path); }),
+                             std::function<void()>([&] { to_bytes(trial); })}) {
+    try {
+      saving();
+      FAIL("not refused");
+    } catch (const InvalidValue& error) {
+      CHECK(error.quantity() == "Trial.agent");
+      CHECK(error.value().find("Own") != std::string::npos);
+      CHECK(error.allowed().find("give the agent when loading") != std::string::npos);
+    }
+  }
+  CHECK_FALSE(std::ifstream(path).good());
+
+  const Bytes bytes = to_bytes(trial, {nullptr, false, ""});
+  CHECK(refusal(bytes) == "agent");
+  const auto again = std::make_shared<Own>(*own);
+  Trial resumed = loaded(bytes, again).trial;
+  CHECK(resumed.agent() == again);
+  const Record a = trial.run(50), b = resumed.run(50);
+  CHECK(a.x == b.x);
+  CHECK(a.motion == b.motion);
+}
+
+TEST_CASE("the agent that is given goes on instead of the one in the file") {
+  Lived lived;
+  const auto own = std::make_shared<Own>();
+  Trial trial = loaded(lived.bytes(), own).trial;
+  trial.step();
+  CHECK(own->steps == 1);
+  LearnerConfig other;
+  other.motion_count = 3;
+  CHECK_THROWS_AS(
+      loaded(lived.bytes(), std::make_shared<LearnerAgent>(std::make_shared<Learner>(other, 1))),
+      FileError);
+}
+
+TEST_CASE("a trial is not saved in the middle of a step") {
+  const auto own = std::make_shared<Own>();
+  Trial trial(shipped("empty"), {}, 1, own);
+  own->observing = [&] { to_bytes(trial, {nullptr, false, ""}); };
+  check_refused([&] { trial.step(); }, "Trial", "a snapshot while a call is under way");
+}
+
+TEST_CASE("file, stream and memory hold the same snapshot, its record and its note") {
+  const Lived lived;
+  const SaveOptions all{&lived.record, true, "caf\u00e9 \"quoted\"\n"};
+  const Bytes bytes = to_bytes(lived.trial, all);
+  const std::string path = std::string(DEVLEARN_BINARY_DIR) + "/trial.safetensors";
+  save(lived.trial, path, all);
+  std::ostringstream stream;
+  save(lived.trial, stream, all);
+  CHECK(stream.str() == std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  std::istringstream again(stream.str());
+  for (const TrialSnapshot& snapshot : {load_trial(path), load_trial(again), loaded(bytes)}) {
+    CHECK(snapshot.note == all.note);
+    REQUIRE(snapshot.record.has_value());
+    CHECK(to_bytes(snapshot.trial, {&*snapshot.record, true, snapshot.note}) == bytes);
+  }
+  std::remove(path.c_str());
+}
+
+TEST_CASE("a record that does not fit is not saved") {
+  Lived lived;
+  const auto refused = [&](const auto& harm) {
+    Record record = lived.record;
+    harm(record);
+    try {
+      to_bytes(lived.trial, {&record, true, ""});
+    } catch (const InvalidValue& error) {
+      return error.quantity();
+    }
+    return std::string();
+  };
+  CHECK(refused([](Record&) {}) == "");
+  CHECK(refused([](Record& r) { r.sef.pop_back(); }) == "record.sef");
+  CHECK(refused([](Record& r) { r.heading.push_back(0.0); }) == "record.heading");
+  CHECK(refused([](Record& r) { r.echoes.pop_back(); }) == "record.echoes");
+  CHECK(refused([](Record& r) { r.rounds[0].steps -= 1; }) == "record.rounds.steps");
+  CHECK(refused([](Record& r) { r.rounds[1].steps += 1000; }) == "record.rounds[1].steps");
+  CHECK(refused([](Record& r) { r.rounds[1].round = 0; }) == "record.rounds[1].round");
+  CHECK(refused([](Record& r) { r.kind[5] = 4; }) == "record.kind[5]");
+  CHECK(refused([](Record& r) { r.motion[2] = -1; }) == "record.motion[2]");
+  check_refused([&] { to_bytes(lived.trial, {nullptr, true, "\xff"}); }, "note", "?");
+}
+
+TEST_CASE("a trial's snapshot cut off anywhere, or with a bit flipped, is refused") {
+  const Bytes bytes = Lived().bytes();
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 32) {
+    REQUIRE(refusal(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))) != "");
+  }
+  for (std::size_t i = 0; i < bytes.size(); i += 97 + i / 40) {
+    Bytes damaged = bytes;
+    damaged[i] ^= static_cast<std::byte>(1 << i % 8);
+    REQUIRE(refusal(damaged) != "");
+  }
+}
+
+TEST_CASE("a trial's snapshot that lies is refused, naming the lie") {
+  const SnapshotBytes good{Lived().bytes()};
+  REQUIRE(refusal(good.mended()) == "");
+  const auto with_entry = [&](const char* name, const std::string& value) {
+    SnapshotBytes lie = good;
+    REQUIRE(lie.set_entry(name, value));
+    return refusal(lie.mended());
+  };
+  const auto with = [&](const char* array, std::size_t i, auto value) {
+    SnapshotBytes lie = good;
+    lie.set(array, i, value);
+    return refusal(lie.mended());
+  };
+  const auto with_text = [&](const std::string& from, const std::string& to) {
+    SnapshotBytes lie = good;
+    REQUIRE(lie.replace(from, to));
+    return refusal(lie.mended());
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+
+  SUBCASE("about what it is") {
+    CHECK(with_entry("format", "devlearn-learner") == "format");
+    CHECK(with_entry("format_version", "2") == "format_version");
+    CHECK(with_entry("format_version", "0") == "format_version");
+    CHECK(with_entry("format_version", "one") == "format_version");
+    const Bytes learner = to_bytes(Learner());
+    CHECK(refusal(learner) == "format");
+    CHECK_THROWS_AS(load_learner(good.mended().data(), good.mended().size()), FileError);
+  }
+  SUBCASE("about where the robot is") {
+    CHECK(with("pose", 0, nan) == "pose.x");
+    CHECK(with("pose", 1, infinite) == "pose.y");
+    CHECK(with("pose", 2, nan) == "pose.heading");
+    CHECK(with("pose", 0, -1.0) == "pose.x");
+    SnapshotBytes inside = good;  // an obstacle
+    const World world = shipped("paper");
+    for (const Obstacle& obstacle : world.def().obstacles) {
+      if (const auto* circle = std::get_if<Circle>(&obstacle)) {
+        inside.set("pose", 0, circle->center.x);
+        inside.set("pose", 1, circle->center.y);
+      }
+    }
+    CHECK(refusal(inside.mended()) == "pose");
+    CHECK(with_entry("round", "-1") == "round");
+    CHECK(with_entry("round", "2147483647") == "round");
+    CHECK(with_entry("round", "99999999999") == "round");
+  }
+  SUBCASE("about the world") {
+    CHECK(with_text("\\\"arena\\\"", "\\\"arenas\\\"") == "world.arena");
+    CHECK(with_text("\\\"width\\\": 5", "\\\"width\\\": 1e9") == "world.arena.width");
+    CHECK(with_text("\\\"version\\\": 1", "\\\"version\\\": 2") == "world.version");
+    const std::string deep(50000, '[');
+    CHECK(with_text("\\\"obstacles\\\": [", "\\\"obstacles\\\": " + deep) ==
+          "world.obstacles" + [] {
+            std::string path;
+            for (int i = 0; i < 15; ++i) path += "[0]";
+            return path;
+          }());
+    CHECK(with_text("\"world\":\"{", "\"world\":\"") == "world");
+    CHECK(with_text("\"world\":", "\"word\":") == "__metadata__.world");
+  }
+  SUBCASE("about the configuration") {
+    CHECK(with_entry("config.goal_radius", "nan") == "TrialConfig.goal_radius");
+    CHECK(with_entry("config.goal_radius", "1e999") == "config.goal_radius");
+    CHECK(with_entry("config.learner.motion_count", "6") == "steering_angles");
+    CHECK(with_entry("config.learner.motion_count", "-5") == "LearnerConfig.motion_count");
+    CHECK(with_entry("config.clearance_source", "guess") == "config.clearance_source");
+    CHECK(with_entry("config.clearance_source", "sonar") == "TrialConfig.walls_count");
+    CHECK(with_entry("config.robot.sonar_count", "1000000000") == "sonar_count");
+    CHECK(with_entry("config.heading_bins", "0") == "TrialConfig.heading_bins");
+    CHECK(with_entry("trial_seed", "-1") == "trial_seed");
+    CHECK(with("steering_angles", 0, nan) == "steering_angles[0]");
+  }
+  SUBCASE("about the agent") {
+    CHECK(with_entry("agent", "q-learning") == "agent");
+    CHECK(with_entry("motion_count", "4") == "motions");
+    CHECK(with_entry("sigma", "2") == "LearnerConfig.sigma");
+    CHECK(with_entry("situations", "18446744073709551615") == "situation");
+    CHECK(with("orientation", 0, nan) == "memory.orientation[0]");
+    CHECK(with("times_learned", 1, std::uint32_t{0}) == "memory.times_learned[1]");
+    CHECK(with("motions", 0, std::uint16_t{5}) == "memory.motions[0]");
+  }
+  SUBCASE("about the record") {
+    CHECK(with_entry("record_steps", "1") == "record.round");
+    CHECK(with_entry("record_steps", "18446744073709551615") == "record.round");
+    CHECK(with_entry("record_rounds", "18446744073709551615") == "record.x");
+    CHECK(with_entry("record_sonars", "-5") == "record.echoes");
+    CHECK(with("record.rounds.steps", 0, std::int64_t{-1}) == "record.rounds[0].steps");
+    CHECK(with("record.rounds.steps", 0, std::int64_t{1} << 60) == "record.rounds[0].steps");
+    CHECK(with("record.rounds.steps", 0, std::int64_t{1499}) == "record.rounds.steps");
+    CHECK(with("record.rounds.arrived", 0, std::uint8_t{2}) == "record.rounds.arrived");
+    CHECK(with("record.kind", 3, std::uint8_t{17}) == "record.kind[3]");
+    CHECK(with("record.collided", 4, std::uint8_t{2}) == "record.collided[4]");
+    CHECK(with("record.motion", 5, std::int32_t{-2}) == "record.motion[5]");
+    CHECK(with_text("\"record.sef\"", "\"record.self\"") == "record.sef");
+  }
+}
