@@ -24,6 +24,7 @@ namespace py = pybind11;
 namespace devlearn::python {
 
 void bind_error(py::module_& m);
+void bind_math(py::module_& m);
 void bind_random(py::module_& m);
 void bind_situation(py::module_& m);
 void bind_evaluation(py::module_& m);

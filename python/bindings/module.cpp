@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("box2d_version") = DEVLEARN_BOX2D_VERSION;
 
   devlearn::python::bind_error(m);
+  devlearn::python::bind_math(m);
   devlearn::python::bind_random(m);
   devlearn::python::bind_situation(m);
   devlearn::python::bind_evaluation(m);

@@ -134,9 +134,10 @@ void bind_world(py::module_& m) {
             })(x, y);
           },
           py::arg("x"), py::arg("y"), py::arg("walls_count") = false)
-      .def_property_readonly("name", [](const World& self) { return self.def().name; })
-      .def_property_readonly("description",
-                             [](const World& self) { return self.def().description; })
+      .def_property_readonly(
+          "name", [](const World& self) { return self.def().name; }, "For people.")
+      .def_property_readonly(
+          "description", [](const World& self) { return self.def().description; }, "For people.")
       .def_property_readonly(
           "width", [](const World& self) { return self.def().width; }, "[m]")
       .def_property_readonly(

@@ -36,7 +36,10 @@ from ._core import (
     TrialConfig,
     World,
     __version__,
+    direction,
+    exponential,
     shortest_path,
+    wrapped_heading,
 )
 from ._types import Pose
 from ._worlds import worlds
@@ -71,6 +74,9 @@ __all__ = [
     "TrialConfig",
     "World",
     "__version__",
+    "direction",
+    "exponential",
     "shortest_path",
     "worlds",
+    "wrapped_heading",
 ]

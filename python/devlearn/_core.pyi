@@ -36,7 +36,10 @@ __all__: list[str] = [
     "World",
     "box2d_version",
     "commit",
+    "direction",
+    "exponential",
     "shortest_path",
+    "wrapped_heading",
 ]
 
 class Random:
@@ -634,7 +637,10 @@ class World:
         The same world with another start (x, y, heading). Raises InvalidValue.
         """
     @property
-    def description(self) -> str: ...
+    def description(self) -> str:
+        """
+        For people.
+        """
     @property
     def hash(self) -> str:
         """
@@ -646,7 +652,10 @@ class World:
         [m]
         """
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """
+        For people.
+        """
     @property
     def obstacles(self) -> list[Circle | Rectangle | Polygon]:
         """
@@ -1150,6 +1159,16 @@ class Trial:
         The World.
         """
 
+def direction(heading: typing.SupportsFloat | typing.SupportsIndex) -> tuple[float, float]:
+    """
+    The unit vector (x, y) of a heading [degrees, counter-clockwise from the x axis]. Its last bits are the same on every machine; multiples of 90 degrees are exact. Raises InvalidValue unless the heading is finite.
+    """
+
+def exponential(x: typing.SupportsFloat | typing.SupportsIndex) -> float:
+    """
+    e**x within 1 ulp. Unlike math.exp its last bits are the same on every machine; inf where it overflows.
+    """
+
 def shortest_path(
     robot: Robot,
     start: collections.abc.Sequence[float] | None = None,
@@ -1157,6 +1176,11 @@ def shortest_path(
 ) -> numpy.ndarray:
     """
     The shortest way, in steps, that the robot's own motions allow from `start` (None: the world's) to within goal_radius of the target, touching nothing: poses (steps + 1, 3) [m, m, degrees]; empty where there is no way. What a learnt path is measured against. Found by A* over poses, those in one cell of a quarter step counting as one. Raises InvalidValue.
+    """
+
+def wrapped_heading(heading: typing.SupportsFloat | typing.SupportsIndex) -> float:
+    """
+    The heading brought into [0, 360) degrees, exactly. Raises InvalidValue unless it is finite.
     """
 
 __version__: str

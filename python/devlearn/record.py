@@ -65,7 +65,7 @@ class Record:
     ``reduced``               int32    motions that reduction development removed
     ``explored_count``        int64    after the step: NUM_RM
     ``effective_count``       int64    after the step: NUM_M
-    ``x``, ``y``, ``heading`` float64  poses [m, m, degrees]: n + 1 for a round of n steps
+    ``x`` ``y`` ``heading``   float64  poses [m, m, degrees]: n + 1 for a round of n steps
     ``rounds``                struct   one entry a round: round, steps, arrived
     ``echoes``                float64  after each step: (steps, sonars) [m], or None
     ========================  =======  ====================================================
