@@ -1,0 +1,33 @@
+// d_o of Eq. 6, and whether a way is free, where a free learning led.
+
+#include <vector>
+
+#include "bench.hpp"
+
+namespace devlearn::bench {
+namespace {
+
+template <typename F>
+void over_steps(benchmark::State& state, F f) {
+  const Robot robot(paper(), {});
+  const std::vector<Step> steps = steps_where(false);
+  for (auto _ : state) {
+    for (const Step& step : steps) benchmark::DoNotOptimize(f(robot, step));
+  }
+  per_step(state, static_cast<double>(steps.size()));
+}
+
+const auto* const clearance = add("clearance/geometric", [](benchmark::State& state) {
+  over_steps(state, [](const Robot& robot, const Step& step) {
+    return robot.world().clearance({step.pose.x, step.pose.y});
+  });
+});
+
+const auto* const free_step = add("clearance/free_step", [](benchmark::State& state) {
+  over_steps(state, [](const Robot& robot, const Step& step) {
+    return robot.free_step(step.pose, step.motion);
+  });
+});
+
+}  // namespace
+}  // namespace devlearn::bench

@@ -1,0 +1,162 @@
+// The closed loop: choose, move, sense, evaluate, learn, record.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "bench.hpp"
+#include "box2d_world.hpp"
+
+namespace devlearn::bench {
+namespace {
+
+void free_learnings(benchmark::State& state, const World& world, bool echoes = false) {
+  std::int64_t contacts = 0;
+  RunOptions options;
+  options.echoes = echoes;
+  for (auto _ : state) {
+    contacts = 0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      Trial trial(world, {}, seed);
+      const Record record = trial.free_learning(kSteps, options);
+      contacts += std::count(record.collided.begin(), record.collided.end(), 1);
+    }
+  }
+  per_step(state, kSeeds * kSteps);
+  state.counters["contact_share"] = static_cast<double>(contacts) / (kSeeds * kSteps);
+}
+
+const auto* const closed_loop =
+    add("trial/closed_loop", [](benchmark::State& state) { free_learnings(state, paper()); });
+
+const auto* const echoing = add("trial/closed_loop_echoes", [](benchmark::State& state) {
+  free_learnings(state, paper(), true);
+});
+
+// The steps of a free learning that touched nothing, with Box2D driving at 60 Hz in a world that
+// persists. The rest of the loop is devlearn's.
+const auto* const box2d = add("box2d/closed_loop_60hz", [](benchmark::State& state) {
+  constexpr int kSubsteps = 30;
+  constexpr std::size_t kReplayed = 2000;
+  const World world = paper();
+  const Point target = world.def().target;
+  const RobotDef robot;
+  const SituationGrid grid;
+  const StateEvaluation evaluation;
+  std::vector<Step> steps = steps_where(false);
+  steps.resize(kReplayed);
+  Box2dWorld physics(world.def());
+  for (auto _ : state) {
+    Learner learner({}, 1);
+    Record record;
+    record.begin_round(1, steps.front().pose);
+    double before = 0.0;
+    for (const Step& step : steps) {
+      StepRecord now;
+      now.situation = grid.situation(step.pose.x, step.pose.y, step.pose.heading);
+      now.motion = learner.choose(now.situation).motion;
+      const double turn = robot.steering_angles[static_cast<std::size_t>(step.motion)];
+      now.pose = physics.drive(step.pose, step.pose.heading + turn, kSubsteps);
+      const double dx = now.pose.x - target.x, dy = now.pose.y - target.y;
+      now.goal_distance = std::sqrt(dx * dx + dy * dy);
+      now.clearance = world.clearance({now.pose.x, now.pose.y});
+      now.sef = evaluation(now.goal_distance, now.clearance);
+      now.smf = now.smf_used = now.sef - before;
+      learner.learn(step.smf_used);
+      before = now.sef;
+      record.append(now);
+    }
+    benchmark::DoNotOptimize(record);
+  }
+  per_step(state, kReplayed);
+});
+
+// Two rounds of free learning and 400 of path learning: one experiment of the paper.
+const auto* const experiment = add("trial/experiment", [](benchmark::State& state) {
+  const World world = paper();
+  double steps = 0.0;
+  for (auto _ : state) {
+    Trial trial(world, {}, 1);
+    trial.free_learning(kSteps);
+    trial.free_learning(kSteps);
+    steps = static_cast<double>(2 * kSteps + trial.path_learning(400).steps());
+  }
+  per_step(state, steps);
+});
+
+// --- growth ------------------------------------------------------------------------------------
+
+Point moved(Point p, double x, double y) { return {p.x + x, p.y + y}; }
+Obstacle moved(Circle circle, double x, double y) {
+  circle.center = moved(circle.center, x, y);
+  return circle;
+}
+Obstacle moved(Rectangle rectangle, double x, double y) {
+  rectangle.center = moved(rectangle.center, x, y);
+  return rectangle;
+}
+Obstacle moved(Polygon polygon, double x, double y) {
+  for (Point& corner : polygon.corners) corner = moved(corner, x, y);
+  return polygon;
+}
+
+// The world `paper` side by side, 32 times along x and along y, without walls between; start and
+// target in the middle.
+World grown() {
+  constexpr int kTiles = 32;
+  const WorldDef tile = paper().def();
+  const double x = tile.width * (kTiles / 2), y = tile.height * (kTiles / 2);
+  WorldDef def = tile;
+  def.width *= kTiles;
+  def.height *= kTiles;
+  def.start.x += x;
+  def.start.y += y;
+  def.target = moved(def.target, x, y);
+  def.obstacles.clear();
+  for (int i = 0; i < kTiles; ++i) {
+    for (int j = 0; j < kTiles; ++j) {
+      for (const Obstacle& obstacle : tile.obstacles) {
+        def.obstacles.push_back(std::visit(
+            [&](const auto& shape) { return moved(shape, i * tile.width, j * tile.height); },
+            obstacle));
+      }
+    }
+  }
+  return World(std::move(def));
+}
+
+// The world `paper`, each obstacle made of a thousand circles that lie in it.
+World shattered() {
+  constexpr double kPiece = 0.015;
+  constexpr int kPieces = 1000;
+  WorldDef def = paper().def();
+  const std::vector<Obstacle> whole = std::move(def.obstacles);
+  def.obstacles.clear();
+  Random random(1, "pieces");
+  for (const Obstacle& obstacle : whole) {
+    WorldDef alone;
+    alone.start = {0.01, 0.01, 0.0};
+    alone.target = {4.99, 4.99};
+    alone.obstacles = {obstacle};
+    const World inside(alone);
+    for (int made = 0; made < kPieces;) {
+      const Point p{random.uniform() * def.width, random.uniform() * def.height};
+      if (inside.clearance(p) > 0.0) continue;
+      def.obstacles.push_back(Circle{p, kPiece});
+      ++made;
+    }
+  }
+  return World(std::move(def));
+}
+
+const auto* const arena_grown =
+    add("trial/8192_obstacles_arena_grown",
+        [](benchmark::State& state) { free_learnings(state, grown()); });
+
+const auto* const arena_kept = add("trial/8000_obstacles_arena_kept", [](benchmark::State& state) {
+  free_learnings(state, shattered());
+});
+
+}  // namespace
+}  // namespace devlearn::bench
