@@ -11,9 +11,9 @@ namespace devlearn {
 
 /// What an agent knows when it chooses.
 struct Observation {
-  SituationId situation = -1;
-  Pose pose;
-  double sef = 0.0;
+  SituationId situation = -1;  ///< S_i
+  Pose pose;                   ///< [m, m, degrees]
+  double sef = 0.0;            ///< SEF here
   double goal_distance = 0.0;  ///< d_g [m]
   double clearance = 0.0;      ///< d_o [m]
   int motion_count = 0;        ///< choose one in 0 ... motion_count - 1
@@ -24,32 +24,37 @@ struct Outcome {
   SituationId situation = -1;  ///< the next situation
   double sef = 0.0;            ///< SEF in it
   double smf = 0.0;            ///< as learned from: min(SMF, -1) for a collision
-  bool collided = false;
-  bool arrived = false;
+  bool collided = false;       ///< the body touched something
+  bool arrived = false;        ///< d_g <= goal_radius
 };
 
 /// Whoever chooses motions in a trial.
 class Agent {
  public:
   virtual ~Agent() = default;
+  /// Step 3: a motion for what is observed.
   virtual Choice choose(const Observation& observation) = 0;
+  /// Steps 4-5: what came of it.
   virtual Development observe(const Outcome& outcome) = 0;
   /// The choice just made was not executed.
   virtual void cancel() {}
-  /// NUM_RM and NUM_M, for the record; 0 for agents without such lists.
+  /// NUM_RM, for the record; 0 for agents without such lists.
   virtual std::int64_t explored_count() const { return 0; }
+  /// NUM_M, likewise.
   virtual std::int64_t effective_count() const { return 0; }
 };
 
 /// The paper's learner as an agent; it shares the learner with whoever else holds it.
 class LearnerAgent final : public Agent {
  public:
+  /// learner: not null.
   explicit LearnerAgent(std::shared_ptr<Learner> learner);
   Choice choose(const Observation& observation) override;
   Development observe(const Outcome& outcome) override;
   void cancel() override;
   std::int64_t explored_count() const override;
   std::int64_t effective_count() const override;
+  /// The learner, never null.
   const std::shared_ptr<Learner>& learner() const noexcept { return learner_; }
 
  private:
@@ -65,6 +70,7 @@ class RandomAgent final : public Agent {
   explicit RandomAgent(const Random& random) : random_(random) {}
   Choice choose(const Observation& observation) override;
   Development observe(const Outcome& outcome) override;
+  /// What it draws from.
   const Random& random() const noexcept { return random_; }
 
  private:

@@ -8,7 +8,8 @@ double exponential(double x) noexcept;
 
 /// A unit vector.
 struct Direction {
-  double x = 1.0, y = 0.0;
+  double x = 1.0;  ///< the heading's cosine
+  double y = 0.0;  ///< the heading's sine
 };
 
 /// The unit vector of a heading [degrees, counter-clockwise from the x axis], by fixed operations

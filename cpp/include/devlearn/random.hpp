@@ -12,9 +12,12 @@ namespace devlearn {
 /// Streams of one seed are independent by name: what one draws never shifts another.
 class Random {
  public:
+  /// Never all zeros.
   using State = std::array<std::uint64_t, 4>;
 
+  /// The stream of that name, from its beginning.
   Random(std::uint64_t seed, std::string_view stream) noexcept;
+  /// A stream that goes on from a state.
   explicit Random(const State& state) noexcept : state_(state) {}
 
   /// 64 random bits.
@@ -44,6 +47,7 @@ class Random {
     return static_cast<std::uint32_t>(product >> 32);
   }
 
+  /// Where the stream is.
   const State& state() const noexcept { return state_; }
 
  private:

@@ -39,6 +39,8 @@ struct Round {
 /// What happened, as columns of one value a step. The poses are one more a round: round i's are
 /// rows [first step + i, last step + i + 1], from where it began to where it ended.
 struct Record {
+  ///@{
+  /// Of each step, as StepRecord says.
   std::vector<std::int32_t> round;
   std::vector<SituationId> situation;
   std::vector<std::int32_t> motion;
@@ -49,11 +51,16 @@ struct Record {
   std::vector<std::uint8_t> event;
   std::vector<std::int32_t> reduced;
   std::vector<std::int64_t> explored_count, effective_count;
-  std::vector<double> x, y, heading;  ///< poses, steps + rounds values [m, m, degrees]
-  std::vector<Round> rounds;
+  ///@}
+  ///@{
+  /// Poses, steps + rounds values [m, m, degrees].
+  std::vector<double> x, y, heading;
+  ///@}
+  std::vector<Round> rounds;   ///< what each round came to
   int sonar_count = 0;         ///< columns of `echoes`; 0 where they were not asked for
   std::vector<double> echoes;  ///< after each step, steps * sonar_count values [m]
 
+  /// How many there are.
   std::size_t steps() const noexcept { return situation.size(); }
 
   /// Begins a round: its number and the pose it begins from. Where the last round has this number

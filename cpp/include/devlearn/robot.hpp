@@ -32,7 +32,8 @@ inline bool operator!=(const RobotDef& a, const RobotDef& b) noexcept { return !
 
 /// Rim speeds of the left and right wheel [m/s].
 struct WheelSpeeds {
-  double left = 0.0, right = 0.0;
+  double left = 0.0;   ///< [m/s]
+  double right = 0.0;  ///< [m/s]
 };
 
 /// The robot's body in a world: how it moves and what its sonars hear. Const throughout: a step is
@@ -43,11 +44,15 @@ class Robot {
   /// Throws InvalidValue.
   Robot(const World& world, const RobotDef& def);
   ~Robot();
+  ///@{
+  /// It moves, and is not copied.
   Robot(Robot&&) noexcept;
   Robot& operator=(Robot&&) noexcept;
+  ///@}
 
+  /// Where a step led.
   struct Step {
-    Pose pose;
+    Pose pose;              ///< after it
     bool collided = false;  ///< the body touched something
   };
 
@@ -68,18 +73,20 @@ class Robot {
   /// sonar_range where nothing is heard, 0 where something touches the rim. `echoes` has room for
   /// sonar_count values.
   void sonar(const Pose& pose, double* echoes) const;
+  /// The same as a vector.
   std::vector<double> sonar(const Pose& pose) const;
 
-  /// Eq. 2: wheel speeds of the turn and of the drive, each held for one sample time.
+  /// Eq. 2: wheel speeds of the turn, held for one sample time.
   WheelSpeeds turn_speeds(int motion) const;
+  /// Likewise of the drive.
   WheelSpeeds drive_speeds() const noexcept;
 
   /// Throws InvalidValue unless the body fits at the pose: inside the arena and, but for Box2D's
   /// slop of 0.005 m, in touch with nothing. `what` names the pose in the message.
   void require_place(const Pose& pose, const char* what = "pose") const;
 
-  const RobotDef& def() const noexcept { return def_; }
-  const World& world() const noexcept { return *world_; }
+  const RobotDef& def() const noexcept { return def_; }    ///< as given
+  const World& world() const noexcept { return *world_; }  ///< as given
 
  private:
   struct Physics;

@@ -43,11 +43,11 @@ class SituationGrid {
   /// N_S, the number of situations.
   SituationId count() const noexcept;
 
-  double width() const noexcept { return width_; }
-  double height() const noexcept { return height_; }
-  int columns() const noexcept { return columns_; }
-  int rows() const noexcept { return rows_; }
-  int headings() const noexcept { return headings_; }
+  double width() const noexcept { return width_; }     ///< of the arena, along x [m]
+  double height() const noexcept { return height_; }   ///< of the arena, along y [m]
+  int columns() const noexcept { return columns_; }    ///< cells along x
+  int rows() const noexcept { return rows_; }          ///< cells along y
+  int headings() const noexcept { return headings_; }  ///< heading bins
 
  private:
   double width_, height_;

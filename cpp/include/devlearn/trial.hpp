@@ -23,16 +23,18 @@ enum class ClearanceSource : std::uint8_t {
 
 /// Everything a trial needs besides the world and the seed; the defaults are the paper's.
 struct TrialConfig {
-  LearnerConfig learner;
-  StateEvaluation evaluation;
-  RobotDef robot;
-  ClearanceSource clearance_source = ClearanceSource::kGeometric;
+  LearnerConfig learner;       ///< steps 3-5; its motions are the robot's
+  StateEvaluation evaluation;  ///< step 2, Eq. 6
+  RobotDef robot;              ///< Eq. 1-2
+  ClearanceSource clearance_source = ClearanceSource::kGeometric;  ///< where d_o comes from
   bool walls_count = false;  ///< whether walls count in d_o; `sonar` needs true
   double goal_radius = 0.1;  ///< arrived when d_g is no more than this; in (0, 100] m
   double cell_size = 0.25;   ///< of the situation grid, in [0.001, 1000] m
   int heading_bins = 12;     ///< of the situation grid, in 1 ... 3600
 
+  /// The default; see LearnerConfig::paper.
   static TrialConfig paper() { return {}; }
+  /// See LearnerConfig::step5.
   static TrialConfig step5();
 
   /// Throws InvalidValue.
@@ -78,12 +80,14 @@ class Trial {
   /// finishes a round of path learning that was interrupted.
   Record finish_round(std::int64_t steps, const RunOptions& options = {});
 
+  ///@{
   /// The same, appended to a record: what is finished is kept there even where an agent throws.
   void run(Record& record, std::int64_t steps, const RunOptions& options = {});
   void free_learning(Record& record, std::int64_t steps, const RunOptions& options = {});
   void path_learning(Record& record, std::int64_t rounds, std::int64_t step_limit,
                      const RunOptions& options = {});
   void finish_round(Record& record, std::int64_t steps, const RunOptions& options = {});
+  ///@}
 
   /// Puts the robot at the start pose for a new round.
   void begin_round();
@@ -93,6 +97,7 @@ class Trial {
   /// Throws InvalidValue.
   void resume(const Pose& pose, std::int32_t round);
 
+  /// Where the robot is [m, m, degrees].
   const Pose& pose() const noexcept { return pose_; }
   /// The present round, from 1; 0 before the first.
   std::int32_t round() const noexcept { return round_; }
@@ -100,12 +105,15 @@ class Trial {
   bool under_way() const noexcept { return under_way_; }
   /// Whether the robot is at the target: d_g <= goal_radius.
   bool arrived() const noexcept { return state_.arrived; }
+  ///@{
+  /// What it was made of.
   const World& world() const noexcept { return robot_.world(); }
   const Robot& robot() const noexcept { return robot_; }
   const SituationGrid& grid() const noexcept { return grid_; }
   const TrialConfig& config() const noexcept { return config_; }
   std::uint64_t seed() const noexcept { return seed_; }
   const std::shared_ptr<Agent>& agent() const noexcept { return agent_; }
+  ///@}
   /// The paper's learner, where that is the agent; null otherwise.
   std::shared_ptr<Learner> learner() const noexcept;
 

@@ -16,6 +16,7 @@ namespace devlearn {
 /// file like a learner's (docs/snapshot-format.md), and the record so far if wanted. A trial that
 /// is loaded goes on equal to the bit, in the middle of a round, too.
 
+/// What goes into a trial's snapshot besides the trial.
 struct SaveOptions {
   const Record* record = nullptr;  ///< saved with the trial
   /// Only the paper's learner and RandomAgent can be saved. Save an agent of your own yourself, the
@@ -31,10 +32,11 @@ void save(const Trial& trial, const std::string& path, const SaveOptions& option
 void save(const Trial& trial, std::ostream& stream, const SaveOptions& options = {});
 std::vector<std::byte> to_bytes(const Trial& trial, const SaveOptions& options = {});
 
+/// What a trial's snapshot holds.
 struct TrialSnapshot {
-  Trial trial;
+  Trial trial;                   ///< goes on equal to the bit
   std::optional<Record> record;  ///< where one was saved
-  std::string note;
+  std::string note;              ///< as given to save
 };
 
 /// `agent` takes the place of the one in the file. Throws FileError, saying what is wrong, for

@@ -11,17 +11,21 @@ namespace devlearn {
 
 /// A point of the plane [m].
 struct Point {
-  double x = 0.0, y = 0.0;
+  double x = 0.0;  ///< [m]
+  double y = 0.0;  ///< [m]
 };
+
 inline bool operator==(const Point& a, const Point& b) noexcept { return a.x == b.x && a.y == b.y; }
 
+/// A round obstacle.
 struct Circle {
-  Point center;
+  Point center;         ///< [m]
   double radius = 0.0;  ///< in [0.01, 1000] m
 };
 
+/// A rectangle at any angle.
 struct Rectangle {
-  Point center;
+  Point center;         ///< [m]
   double width = 0.0;   ///< along its own x axis, in [0.01, 1000] m
   double height = 0.0;  ///< along its own y axis, in [0.01, 1000] m
   double angle = 0.0;   ///< of its own x axis, counter-clockwise, in [-360, 360] degrees
@@ -63,7 +67,7 @@ class World {
   /// Writes to_json() to a file: to the side first, then renamed. Throws FileError.
   void save(const std::string& path) const;
 
-  const WorldDef& def() const noexcept { return def_; }
+  const WorldDef& def() const noexcept { return def_; }  ///< as given
 
   /// The same world with another start. Throws InvalidValue.
   World with_start(const Pose& start) const;

@@ -1,0 +1,81 @@
+"""How Sphinx writes the documentation; scripts/docs runs it."""
+
+import re
+import shutil
+import sys
+from pathlib import Path
+
+from sphinx.util import logging
+
+ROOT = Path(__file__).resolve().parents[1]
+SOURCES = ROOT / "build" / "docs-sources"
+
+project = "devlearn"
+author = copyright = "The devlearn authors"
+version = release = re.search(
+    r"project\(devlearn VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+)[1]
+# The sources are the whole tree's, so that links lead where they do when read as files.
+root_doc = "docs/index"
+include_patterns = ["*.md", "docs/**", "examples/*.md"]
+exclude_patterns = [".*", "build", "out"]
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+myst_heading_anchors = 3
+html_theme = "furo"
+html_title = f"devlearn {release}"
+html_copy_source = False
+html_show_sphinx = False
+
+# --- C++: the comments of the headers, as Doxygen reads them -----------------------------------
+breathe_projects = {"devlearn": str(SOURCES / "xml")}
+breathe_default_project = "devlearn"
+breathe_show_include = False
+cpp_index_common_prefix = ["devlearn::"]
+suppress_warnings = ["duplicate_declaration.cpp"]  # the namespace, once a header
+
+# --- Python: the package, its compiled module standing in as the stub that was written of it ----
+autodoc_member_order = "bysource"
+autodoc_mock_imports = ["matplotlib"]
+autodoc_typehints_format = "short"
+python_use_unqualified_type_names = True
+add_module_names = False
+napoleon_use_ivar = True
+default_role = "literal"  # for single backticks
+
+
+def write_standin():
+    """Copies the package to where it needs no compiled module, with the types a reader expects."""
+    shutil.rmtree(SOURCES / "devlearn", ignore_errors=True)
+    shutil.copytree(ROOT / "python" / "devlearn", SOURCES / "devlearn")
+    stub = SOURCES / "devlearn" / "_core.pyi"
+    text = stub.read_text(encoding="utf-8")
+    for accepted, expected in (
+        ("typing.SupportsFloat | typing.SupportsIndex", "float"),
+        ("typing.SupportsIndex", "int"),
+        ("typing.Annotated[numpy.typing.ArrayLike, numpy.float64]", "numpy.typing.ArrayLike"),
+        ("devlearn._types.Pose", "devlearn.Pose"),
+        ("devlearn.record.Record", "devlearn.Record"),
+    ):
+        text = text.replace(accepted, expected)
+    build = f'\n__version__ = "{release}"\nbox2d_version = commit = ""\n'
+    stub.with_suffix(".py").write_text(text + build, encoding="utf-8")
+    stub.unlink()
+
+
+def as_rst(lines):
+    """A docstring as reStructuredText, in which code that stands alone is announced."""
+    return re.sub(r"(?m)^(\S.*)(?<!:)\n\n(?= )", r"\1\n\n::\n\n", "\n".join(lines)).split("\n")
+
+
+def edit_docstring(app, what, name, documented, options, lines):
+    """Refuses (with -W) a public name without a docstring."""
+    if not any(lines):
+        logging.getLogger(__name__).warning("%s has no docstring", name)
+    lines[:] = as_rst(lines)
+
+
+def setup(app):
+    """Called by Sphinx."""
+    write_standin()
+    sys.path.insert(0, str(SOURCES))
+    app.connect("autodoc-process-docstring", edit_docstring, priority=400)
