@@ -67,11 +67,16 @@ void require_partition(const LearnerMemory& all, std::size_t i, int motion_count
   }
 }
 
+// Reduction leaves none below 1/(3 n_i), and then each extension the share n_i/(n_i + 1): no
+// history of N motions goes below 1/(3 N^2). From zeros the divisions of Eq. 9 and 14 could make
+// NaN.
+constexpr double kLeastOrientation = 1e-12;
+
 void require_orientations(const LearnerMemory& all, std::size_t i, std::size_t first) {
   double sum = 0.0;
   for (std::size_t j = first; j < first + all.effective_count[i]; ++j) {
-    if (!(all.orientation[j] >= 0.0 && all.orientation[j] <= 1.0)) {
-      refuse_memory("orientation", j, to_text(all.orientation[j]), "in [0, 1]");
+    if (!(all.orientation[j] >= kLeastOrientation && all.orientation[j] <= 1.0)) {
+      refuse_memory("orientation", j, to_text(all.orientation[j]), "in [1e-12, 1]");
     }
     if (all.times_learned[j] < 1) refuse_memory("times_learned", j, "0", "at least 1");
     sum += all.orientation[j];

@@ -111,9 +111,16 @@ class Learner {
   explicit Learner(const LearnerConfig& config = {}, std::uint64_t seed = 0);
 
   /// A learner that goes on from a state. Throws InvalidValue where the state breaks a law: lists
-  /// that do not partition M, unexplored motions out of order, orientations outside [0, 1] or whose
-  /// sum is not 1 within 1e-9, counts below 1, a situation twice, sizes that do not fit.
+  /// that do not partition M, unexplored motions out of order, orientations outside [1e-12, 1] or
+  /// whose sum is not 1 within 1e-9, counts below 1, a situation twice, sizes that do not fit.
   explicit Learner(const LearnerState& state);
+
+  Learner(const Learner&) = default;
+  Learner(Learner&&) noexcept = default;
+  /// Where memory for the copy does not suffice, this learner is left as it was.
+  Learner& operator=(const Learner& other) { return *this = Learner(other); }
+  Learner& operator=(Learner&&) noexcept = default;
+  ~Learner() = default;
 
   /// Step 3: chooses a motion for a situation >= 0. Throws InvalidValue for a negative situation
   /// or while an earlier choice waits for learn or cancel.

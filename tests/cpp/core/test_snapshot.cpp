@@ -183,6 +183,27 @@ TEST_CASE("a state that breaks a law of the method is refused, naming it") {
   CHECK(broken([](S s) { s.config.sigma = nan; }) == "LearnerConfig.sigma");
 }
 
+TEST_CASE("orientations of which Eq. 9 and 14 would leave nothing are refused") {
+  LearnerConfig config;
+  config.motion_count = 2;
+  Learner learner(config);
+  learner.update(0, 0, 1.0);
+  learner.update(0, 1, 1.0);
+  LearnerState state = learner.state();
+  for (const double least : {0.0, 5e-324, 1e-13}) {
+    state.memory.orientation = {1.0, least};
+    CHECK(refusal(state) == "memory.orientation[1]");
+  }
+  state.memory.orientation = {1.0, 1e-12};
+  for (const double smf : {-50.0, -1e300, 1e300}) {
+    for (const int motion : {0, 1}) {
+      Learner lived(state);
+      lived.update(0, motion, smf);
+      CHECK(refusal(lived.state()) == "");
+    }
+  }
+}
+
 TEST_CASE("a snapshot that cannot be written leaves the previous one whole") {
   const std::string folder = std::string(DEVLEARN_BINARY_DIR) + "/no such folder";
   CHECK_THROWS_AS(save(experienced(), folder + "/learner"), FileError);
