@@ -217,6 +217,7 @@ void Trial::put(const Pose& pose) {
 void Trial::run(Record& record, std::int64_t steps, const RunOptions& options) {
   require_count("steps", steps, 0, std::int64_t{1} << 40);
   const OneCall call(under_way_);
+  require_like(record, options);
   round_ = std::max(round_, 1);
   run_on(record, steps, false, options);
 }
@@ -224,6 +225,7 @@ void Trial::run(Record& record, std::int64_t steps, const RunOptions& options) {
 void Trial::free_learning(Record& record, std::int64_t steps, const RunOptions& options) {
   require_count("steps", steps, 0, std::int64_t{1} << 40);
   const OneCall call(under_way_);
+  require_like(record, options);
   put(world().def().start);
   run_on(record, steps, false, options);
 }
@@ -233,6 +235,7 @@ void Trial::path_learning(Record& record, std::int64_t rounds, std::int64_t step
   require_count("rounds", rounds, 0, std::int64_t{1} << 30);
   require_count("step_limit", step_limit, 1, std::int64_t{1} << 40);
   const OneCall call(under_way_);
+  require_like(record, options);
   for (std::int64_t i = 0; i < rounds; ++i) {
     put(world().def().start);
     if (!run_on(record, step_limit, true, options)) return;
@@ -242,14 +245,24 @@ void Trial::path_learning(Record& record, std::int64_t rounds, std::int64_t step
 void Trial::finish_round(Record& record, std::int64_t steps, const RunOptions& options) {
   require_count("steps", steps, 0, std::int64_t{1} << 40);
   const OneCall call(under_way_);
+  require_like(record, options);
   round_ = std::max(round_, 1);
   run_on(record, steps, true, options);
+}
+
+// A record holds echoes of every step or of none.
+void Trial::require_like(const Record& record, const RunOptions& options) const {
+  const int sonars = options.echoes ? config_.robot.sonar_count : 0;
+  if (record.steps() > 0 && record.sonar_count != sonars) {
+    throw InvalidValue("record.sonar_count", std::to_string(record.sonar_count),
+                       std::to_string(sonars) + ", as many echoes a step as now are recorded");
+  }
 }
 
 // Steps of the present round, into the record; false where it was interrupted.
 bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
                    const RunOptions& options) {
-  if (options.echoes) record.sonar_count = config_.robot.sonar_count;
+  record.sonar_count = options.echoes ? config_.robot.sonar_count : 0;
   record.begin_round(round_, pose_);
   if (state_.arrived && steps > 0 && until_arrival) record.rounds.back().arrived = true;
   for (std::int64_t i = 0;; ++i) {

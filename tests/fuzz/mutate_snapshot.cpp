@@ -69,17 +69,14 @@ class Pieces {
   }
 
   std::string text() const {
-    safetensors::Arrays arrays;
+    safetensors::Contents contents{metadata_, {}};
     for (const auto& [name, piece] : arrays_) {
-      arrays[name] = {piece.dtype, piece.shape,
-                      reinterpret_cast<const std::byte*>(piece.data.data()), piece.data.size()};
+      contents.arrays[name] = {piece.dtype, piece.shape,
+                               reinterpret_cast<const std::byte*>(piece.data.data()),
+                               piece.data.size()};
     }
-    const std::vector<std::byte> header = safetensors::header(metadata_, arrays);
-    std::string text(reinterpret_cast<const char*>(header.data()), header.size());
-    for (const auto* array : safetensors::in_order(arrays)) {
-      text.append(reinterpret_cast<const char*>(array->data), array->bytes);
-    }
-    return text;
+    const std::vector<std::byte> bytes = safetensors::to_bytes(contents);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   }
 
  private:

@@ -82,6 +82,7 @@ class Trial {
 
   ///@{
   /// The same, appended to a record: what is finished is kept there even where an agent throws.
+  /// Throws InvalidValue for one whose steps have echoes where these would not, or the reverse.
   void run(Record& record, std::int64_t steps, const RunOptions& options = {});
   void free_learning(Record& record, std::int64_t steps, const RunOptions& options = {});
   void path_learning(Record& record, std::int64_t rounds, std::int64_t step_limit,
@@ -128,6 +129,7 @@ class Trial {
   void put(const Pose& pose);
   State sense(const Pose& pose) const;
   double clearance(const Pose& pose) const;
+  void require_like(const Record& record, const RunOptions& options) const;
   bool run_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
 
   TrialConfig config_;

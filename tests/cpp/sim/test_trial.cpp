@@ -592,6 +592,28 @@ TEST_CASE("a trial refuses lengths out of range and places that do not fit, and 
   CHECK(trial.round() == 1);
 }
 
+TEST_CASE("a record goes on with as many echoes a step as it began with") {
+  TrialConfig config;
+  Trial trial(World(), config, 3);
+  RunOptions heard;
+  heard.echoes = true;
+  Record with = trial.free_learning(4, heard), without = trial.free_learning(4);
+  const Pose pose = trial.pose();
+  for (const auto& [record, options] : {std::pair{&with, RunOptions{}}, {&without, heard}}) {
+    const std::string value = std::to_string(record->sonar_count);
+    check_refused([&] { trial.run(*record, 1, options); }, "record.sonar_count", value);
+    check_refused([&] { trial.free_learning(*record, 1, options); }, "record.sonar_count", value);
+    check_refused([&] { trial.path_learning(*record, 1, 9, options); }, "record.sonar_count",
+                  value);
+    check_refused([&] { trial.finish_round(*record, 1, options); }, "record.sonar_count", value);
+  }
+  CHECK(trial.pose() == pose);
+  trial.run(with, 3, heard);
+  trial.run(without, 3);
+  with.validate();
+  without.validate();
+}
+
 TEST_CASE("the grid covers the arena with cells of the size asked for, whatever its sides") {
   for (const double side : {0.5, 1.1, 4.9999, 5.0, 5.0001, 12.3}) {
     for (const double cell : {0.25, 0.1, 0.3, 7.0}) {
