@@ -185,8 +185,9 @@ def _callgrind(command: Sequence[str | Path], **environment: str) -> tuple[int, 
 # --- building -------------------------------------------------------------------------------------
 
 
-def built(source: Path, folder: Path, commit: str) -> Tree:
+def built(source: Path, commit: str) -> Tree:
     """Builds a source tree, with the Python package beside."""
+    folder = source / "build" / "bench" / "release"
     pybind = output([sys.executable, "-m", "pybind11", "--cmakedir"]).strip()
     print(f"bench: building {commit} in {folder.relative_to(ROOT)}", flush=True)
     output([
@@ -223,7 +224,7 @@ def earlier(revision: str) -> Tree:
     subprocess.run(["tar", "-x", "-C", source], input=archive.stdout, check=True)
     shutil.rmtree(source / "bench")
     shutil.copytree(BENCH, source / "bench")
-    return built(source, ROOT / "build" / "against" / f"{commit}-build", commit)
+    return built(source, commit)
 
 
 def commit_of(revision: str | None = None) -> str:
@@ -421,7 +422,7 @@ def main() -> None:
     if options.smoke:
         trees = [Tree(commit_of(), options.smoke / "bench", None)]
     else:
-        trees = [built(ROOT, ROOT / "build" / "bench", commit_of())]
+        trees = [built(ROOT, commit_of())]
     if options.against:
         trees.append(earlier(options.against))
 

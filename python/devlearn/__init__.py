@@ -11,40 +11,46 @@ headings and angles in degrees, counter-clockwise positive.
     print(paths.rounds["steps"])
 """
 
-from . import errors as errors  # before _core, which raises them
-from ._core import (
-    Choice,
-    Circle,
-    Development,
-    Event,
-    Kind,
-    Learner,
-    LearnerConfig,
-    Observation,
-    Outcome,
-    Polygon,
-    Random,
-    RandomAgent,
-    Rectangle,
-    Robot,
-    RobotDef,
-    SituationGrid,
-    SituationMemory,
-    StateEvaluation,
-    Step,
-    Trial,
-    TrialConfig,
-    World,
-    __version__,
-    direction,
-    exponential,
-    shortest_path,
-    wrapped_heading,
-)
-from ._types import Pose
-from ._worlds import worlds
-from .errors import FileError, InvalidValue
-from .record import Record
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import errors as errors
+
+if TYPE_CHECKING:
+    from ._core import (
+        Choice,
+        Circle,
+        Development,
+        Event,
+        Kind,
+        Learner,
+        LearnerConfig,
+        Observation,
+        Outcome,
+        Polygon,
+        Random,
+        RandomAgent,
+        Rectangle,
+        Robot,
+        RobotDef,
+        SituationGrid,
+        SituationMemory,
+        StateEvaluation,
+        Step,
+        Trial,
+        TrialConfig,
+        World,
+        __version__,
+        direction,
+        exponential,
+        shortest_path,
+        wrapped_heading,
+    )
+    from ._types import Pose
+    from ._worlds import worlds
+    from .errors import FileError, InvalidValue
+    from .record import Record
 
 __all__ = [
     "Choice",
@@ -80,3 +86,19 @@ __all__ = [
     "worlds",
     "wrapped_heading",
 ]
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        # Each name when it is first asked for (PEP 562): --help should not wait for them.
+        if name in __all__:
+            from . import _core, _types, _worlds, record
+
+            for module in (_core, _types, _worlds, errors, record):
+                if hasattr(module, name):
+                    globals()[name] = getattr(module, name)
+                    return globals()[name]
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+    def __dir__() -> list[str]:
+        return sorted({*globals(), *__all__})

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import devlearn
 import pytest
 
 SOURCE = Path(__file__).resolve().parents[2]
@@ -108,9 +109,32 @@ def modules_after(statement):
 
 
 def test_importing_devlearn_loads_no_plotting():
-    loaded = modules_after("import devlearn")
+    loaded = modules_after("import devlearn; devlearn.Trial, devlearn.Record")
     assert "devlearn._core" in loaded
     assert not {name for name in loaded if name.split(".")[0] in {"matplotlib", "PIL"}}
+
+
+def test_the_help_of_the_command_line_loads_nothing_that_it_does_not_need():
+    loaded = modules_after(
+        "import contextlib, io\n"
+        "from devlearn.cli import main\n"
+        "with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):\n"
+        "    main(['--help'])"
+    )
+    others = {"numpy", "matplotlib", "multiprocessing"}
+    assert not {name for name in loaded if name.split(".")[0] in others}
+    assert {name for name in loaded if name.startswith("devlearn.")} == {
+        "devlearn.cli",
+        "devlearn.errors",
+    }
+
+
+def test_every_public_name_is_there_when_asked_for_and_no_other():
+    names = "', '".join(devlearn.__all__)
+    modules_after(f"from devlearn import *\nassert {{'{names}'}} <= set(globals())")
+    modules_after(f"import devlearn\nassert {{'{names}'}} <= set(dir(devlearn))")
+    with pytest.raises(AttributeError, match="no attribute 'Robots'"):
+        devlearn.Robots  # noqa: B018
 
 
 def test_plots_only_read():
