@@ -1,4 +1,5 @@
-// A program on the simulation: the whole loop in a world built in code.
+// A program on the simulation: the whole loop in a world built in code. It prints its history to the
+// last bit.
 #include "devlearn/trial.hpp"
 
 #include <cstdio>
@@ -8,7 +9,12 @@ int main() {
   devlearn::WorldDef def;
   def.obstacles.push_back(devlearn::Circle{{2.5, 2.5}, 0.5});
   devlearn::Trial trial(devlearn::World(def), devlearn::TrialConfig::paper(), 1);
-  const devlearn::Record record = trial.free_learning(200);
-  std::printf("%zu steps, at (%.3f, %.3f)\n", record.steps(), trial.pose().x, trial.pose().y);
-  return record.steps() == 200 && record.x.size() == 201 ? EXIT_SUCCESS : EXIT_FAILURE;
+  const devlearn::Record record = trial.free_learning(2000);
+  int collisions = 0;
+  for (std::size_t step = 0; step < record.steps(); ++step) {
+    std::printf("%d %a %a %a %a\n", int(record.motion[step]), record.smf[step], record.x[step + 1],
+                record.y[step + 1], record.heading[step + 1]);
+    collisions += int(record.collided[step]);
+  }
+  return record.steps() == 2000 && collisions > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
