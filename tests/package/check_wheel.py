@@ -1,4 +1,7 @@
-"""Checks what a wheel holds: the package and nothing else. Argument: the wheel."""
+"""Checks what a wheel holds: the package and, where it was repaired, Box2D; nothing else.
+
+Argument: the wheel.
+"""
 
 import re
 import sys
@@ -18,13 +21,18 @@ expected = {
 }
 info = {name for name in names if re.match(r"devlearn-[^/]+\.dist-info/", name)}
 compiled = {name for name in names if re.fullmatch(r"devlearn/_core\.[^/]+\.so", name)}
+repaired = "manylinux" in wheel.name
+carried = {name for name in names if re.fullmatch(r"devlearn\.libs/libbox2d-[^/]+\.so[.\d]*", name)}
 
 problems = [f"is missing: {name}" for name in sorted(expected - names)]
-problems += [f"does not belong: {name}" for name in sorted(names - expected - info - compiled)]
+problems += [f"does not belong: {name}" for name in sorted(names - expected - info - compiled - carried)]
 if len(compiled) != 1:
     problems.append(f"compiled modules: {sorted(compiled)}, expected one")
-if not any(name.endswith("LICENSE") for name in info):
-    problems.append("is missing: LICENSE")
+if len(carried) != repaired:
+    problems.append(f"libraries carried: {sorted(carried)}, expected {int(repaired)}")
+for licence in ("LICENSE", "NOTICE"):
+    if not any(name.endswith(f"/{licence}") for name in info):
+        problems.append(f"is missing: {licence}")
 
 for problem in problems:
     print(f"{wheel.name}: {problem}", file=sys.stderr)

@@ -30,7 +30,7 @@ bool refuses_as_documented() {
 }  // namespace
 
 int main() {
-  devlearn::LearnerConfig config;
+  devlearn::LearnerConfig config = devlearn::LearnerConfig::step5();
   config.motion_count = 5;  // two places back ... two places on
   devlearn::Learner learner(config, 1);
   const auto distance = [](int place) { return place < 5 ? place : 10 - place; };
