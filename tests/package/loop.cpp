@@ -31,7 +31,8 @@ bool refuses_as_documented() {
 
 int main() {
   devlearn::LearnerConfig config = devlearn::LearnerConfig::step5();
-  config.motion_count = 5;  // two places back ... two places on
+  config.motion_count = 4;
+  const int moves[] = {8, 9, 11, 12};  // two places back ... two places on, round the ring
   devlearn::Learner learner(config, 1);
   const auto distance = [](int place) { return place < 5 ? place : 10 - place; };
 
@@ -39,8 +40,8 @@ int main() {
   int visits = 0;
   for (int step = 0; step < 1000; ++step) {
     const int motion = learner.choose(place).motion;
-    const int next = (place + motion + 8) % 10;
-    learner.learn(0.1 * (distance(place) - distance(next)));
+    const int next = (place + moves[motion]) % 10;
+    learner.learn((distance(place) - distance(next)) / (1.0 + step % 97));
     std::printf("%d %d:", place, motion);
     for (const double orientation : learner.situation(place).orientation) {
       std::printf(" %a", orientation);
