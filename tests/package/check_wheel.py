@@ -25,7 +25,9 @@ repaired = "manylinux" in wheel.name
 carried = {name for name in names if re.fullmatch(r"devlearn\.libs/libbox2d-[^/]+\.so[.\d]*", name)}
 
 problems = [f"is missing: {name}" for name in sorted(expected - names)]
-problems += [f"does not belong: {name}" for name in sorted(names - expected - info - compiled - carried)]
+problems += [
+    f"does not belong: {name}" for name in sorted(names - expected - info - compiled - carried)
+]
 if len(compiled) != 1:
     problems.append(f"compiled modules: {sorted(compiled)}, expected one")
 if len(carried) != repaired:

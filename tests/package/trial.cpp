@@ -1,5 +1,5 @@
-// A program on the simulation: the whole loop in a world built in code. It prints its history to the
-// last bit.
+// A program on the simulation: the whole loop in a world built in code. It prints its history to
+// the last bit.
 #include "devlearn/trial.hpp"
 
 #include <cstdio>
