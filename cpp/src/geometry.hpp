@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "devlearn/world.hpp"
@@ -21,6 +22,24 @@ inline double squared_distance(Point p, Point a, Point b) noexcept {
   if (foot >= length) return squared_length(p - b);
   const double aside = cross(along, to);
   return aside * aside / length;
+}
+
+/// Distance to a circle of a point so far (squared) from its centre; 0 inside.
+inline double outside(const Circle& circle, double squared) noexcept {
+  return std::max(0.0, std::sqrt(squared) - circle.radius);
+}
+
+/// Least distance from the segment p-q to a surface.
+inline double swept_distance(const Circle& circle, Point p, Point q) noexcept {
+  return outside(circle, squared_distance(circle.center, p, q));
+}
+inline double swept_distance(const World::Edge& edge, Point p, Point q) noexcept {
+  const Point a = edge.a, b = edge.b;
+  const bool parted = (cross(b - a, p - a) > 0.0) == (cross(b - a, q - a) > 0.0) ||
+                      (cross(q - p, a - p) > 0.0) == (cross(q - p, b - p) > 0.0);
+  if (!parted) return 0.0;
+  return std::sqrt(std::min({squared_distance(p, a, b), squared_distance(q, a, b),
+                             squared_distance(a, p, q), squared_distance(b, p, q)}));
 }
 
 }  // namespace devlearn

@@ -9,6 +9,7 @@
 
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
+#include "drive.hpp"
 #include "geometry.hpp"
 
 namespace devlearn {
@@ -19,107 +20,13 @@ namespace {
 constexpr double kSlop = 0.005;
 // The way is free with more room than Box2D's skin of 0.01 m around edges, and a little [m].
 constexpr double kFreeMargin = 0.0105;
-// No part of a drive moves further at once, less than the slop [m].
-constexpr double kLongestSubstep = 0.0034;
-constexpr int kLeastSubsteps = 15, kMostSubsteps = 1000;
-// Rounds of Box2D's solver. Few do, but where surfaces wedge the body deeper than one substep
-// leads [m], the drive is done again with many.
+// Where surfaces wedge the body deeper than one substep leads [m], the drive is done again with
+// more rounds of Box2D's solver.
 constexpr double kShallow = 0.0035;
-constexpr int kFewRounds = 8, kManyRounds = 60, kPositionRounds = 3;
+
+constexpr int kMostSubsteps = 1000;  // of step_simulated
 
 constexpr double kPi = 3.14159265358979323846;
-
-b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
-
-Point along(Point from, Point direction, double length) {
-  return {from.x + length * direction.x, from.y + length * direction.y};
-}
-
-Pose straight_drive(const Pose& pose, double heading, double length) {
-  const Direction ahead = direction(heading);
-  return {pose.x + length * ahead.x, pose.y + length * ahead.y, heading};
-}
-
-// The part of an edge near a point, so that floats lose nothing to faraway corners.
-World::Edge near_part(const World::Edge& edge, Point point, double reach) {
-  const double length = distance(edge.a, edge.b);
-  const Point unit{(edge.b.x - edge.a.x) / length, (edge.b.y - edge.a.y) / length};
-  const double foot = dot(point - edge.a, unit), aside = cross(unit, point - edge.a);
-  const double half = std::sqrt(std::max(0.0, reach * reach - aside * aside));
-  World::Edge part = edge;
-  if (foot > half) {
-    part.a = along(edge.a, unit, foot - half);
-    part.before = along(part.a, unit, -1.0);
-  }
-  if (foot + half < length) {
-    part.b = along(edge.a, unit, foot + half);
-    part.after = along(part.b, unit, 1.0);
-  }
-  return part;
-}
-
-struct Drive {
-  Point moved;           // from where it began
-  bool touched = false;  // anything, at any time
-};
-
-// Drives with Box2D in a world of its own, made of what lies within reach, its origin at the
-// body. Fresh every time: the outcome depends on nothing that happened before.
-Drive simulate(const World& world, const RobotDef& robot, Point from, double heading, int substeps,
-               int velocity_rounds) {
-  b2World physics(b2Vec2(0.0f, 0.0f));
-  physics.SetAllowSleeping(false);
-  physics.SetWarmStarting(false);
-  physics.SetContinuousPhysics(false);
-
-  // Contacts only ever slow the body, so it stays within a step of where it began.
-  constexpr double kMargin = 0.05;
-  const double reach = robot.radius + robot.speed * robot.sample_time + kMargin;
-  b2BodyDef ground_def;
-  b2Body* ground = physics.CreateBody(&ground_def);
-  b2FixtureDef smooth;
-  smooth.friction = 0.0f;
-  for (const World::Edge& edge : world.edges()) {
-    if (squared_distance(from, edge.a, edge.b) > reach * reach) continue;
-    const World::Edge part = near_part(edge, from, reach + 1.0);
-    b2EdgeShape shape;
-    shape.SetOneSided(vector(part.before - from), vector(part.a - from), vector(part.b - from),
-                      vector(part.after - from));
-    smooth.shape = &shape;
-    ground->CreateFixture(&smooth);
-  }
-  for (const Circle& circle : world.circles()) {
-    if (distance(from, circle.center) - circle.radius > reach) continue;
-    b2CircleShape shape;
-    shape.m_p = vector(circle.center - from);
-    shape.m_radius = static_cast<float>(circle.radius);
-    smooth.shape = &shape;
-    ground->CreateFixture(&smooth);
-  }
-
-  const Direction ahead = direction(heading);
-  b2BodyDef body_def;
-  body_def.type = b2_dynamicBody;
-  body_def.fixedRotation = true;
-  body_def.linearVelocity = vector({robot.speed * ahead.x, robot.speed * ahead.y});
-  b2Body* body = physics.CreateBody(&body_def);
-  b2CircleShape disc;
-  disc.m_radius = static_cast<float>(robot.radius);
-  smooth.shape = &disc;
-  smooth.density = 1.0f;
-  body->CreateFixture(&smooth);
-
-  Drive drive;
-  const auto time = static_cast<float>(robot.sample_time / substeps);
-  for (int i = 0; i < substeps; ++i) {
-    physics.Step(time, velocity_rounds, kPositionRounds);
-    for (const b2ContactEdge* c = body->GetContactList(); c && !drive.touched; c = c->next) {
-      drive.touched = c->contact->IsTouching();
-    }
-  }
-  drive.moved = {body->GetPosition().x, body->GetPosition().y};
-  return drive;
-}
 
 class NearestHit : public b2RayCastCallback {
  public:
@@ -228,35 +135,63 @@ double Robot::heading_after(const Pose& pose, int motion) const {
 double Robot::step_length() const noexcept { return def_.speed * def_.sample_time; }
 
 std::optional<Pose> Robot::free_step(const Pose& pose, int motion) const {
-  const Pose straight = straight_drive(pose, heading_after(pose, motion), step_length());
+  const double heading = heading_after(pose, motion);
   if (!is_finite(pose)) require_place(pose);
-  const double clearance = world_->swept_clearance({pose.x, pose.y}, {straight.x, straight.y});
-  if (clearance > def_.radius + kFreeMargin) return straight;
+  const Step straight = straight_drive(pose, heading);
+  if (keeps_clear(pose, straight)) return straight.pose;
   return std::nullopt;
 }
 
 Robot::Step Robot::step(const Pose& pose, int motion) const {
-  if (const auto straight = free_step(pose, motion)) return {*straight, false};
-  require_place(pose);
   const double heading = heading_after(pose, motion);
-  const int substeps =
-      std::max(kLeastSubsteps, static_cast<int>(std::ceil(step_length() / kLongestSubstep)));
+  if (!is_finite(pose)) require_place(pose);
+  const Step straight = straight_drive(pose, heading);
+  if (keeps_clear(pose, straight)) return straight;
+
+  require_place(pose);
+  const Point from{pose.x, pose.y};
+  const int substeps = substeps_of(def_);
   for (const int rounds : {kFewRounds, kManyRounds}) {
-    const Drive drive = simulate(*world_, def_, {pose.x, pose.y}, heading, substeps, rounds);
-    const Pose end = drive.touched ? Pose{pose.x + drive.moved.x, pose.y + drive.moved.y, heading}
-                                   : straight_drive(pose, heading, step_length());
-    if (fits({end.x, end.y}, rounds == kFewRounds ? kShallow : kSlop)) return {end, drive.touched};
+    auto drive = drive_along_one(*world_, def_, from, heading, substeps, rounds);
+    if (!drive) drive = drive_in_box2d(*world_, def_, from, heading, substeps, rounds);
+    const Step end = drive->touched ? ended(pose, heading, *drive) : straight;
+    if (fits(end, rounds == kFewRounds ? kShallow : kSlop)) return end;
   }
   // Deeper than the slop even so: the body stays where it was, which is no deeper.
-  return {{pose.x, pose.y, heading}, true};
+  return ended(pose, heading, {{0.0, 0.0}, true});
 }
 
 Robot::Step Robot::step_simulated(const Pose& pose, int motion, int substeps) const {
   require_count("substeps", substeps, 1, kMostSubsteps);
   require_place(pose);
   const double heading = heading_after(pose, motion);
-  const Drive drive = simulate(*world_, def_, {pose.x, pose.y}, heading, substeps, kFewRounds);
-  return {{pose.x + drive.moved.x, pose.y + drive.moved.y, heading}, drive.touched};
+  return ended(pose, heading,
+               drive_in_box2d(*world_, def_, {pose.x, pose.y}, heading, substeps, kFewRounds));
+}
+
+Robot::Step Robot::straight_drive(const Pose& pose, double heading) const noexcept {
+  const Direction ahead = direction(heading);
+  return ended(pose, heading, {{step_length() * ahead.x, step_length() * ahead.y}, false});
+}
+
+Robot::Step Robot::ended(const Pose& pose, double heading, const Drive& drive) const noexcept {
+  const Point at{pose.x + drive.moved.x, pose.y + drive.moved.y};
+  return {{at.x, at.y, heading}, drive.touched, world_->clearance(at)};
+}
+
+// Whether the way straight ahead is free: World::keeps_clear, decided where it can be by what is
+// known of its ends. No point on the way is nearer to anything than an end less its way there.
+bool Robot::keeps_clear(const Pose& pose, const Step& straight) const noexcept {
+  constexpr double kRounding = 1e-9;  // [m], more than all of it
+  const Point from{pose.x, pose.y}, to{straight.pose.x, straight.pose.y};
+  const double room = def_.radius + kFreeMargin;
+  const double at_end = std::min(straight.clearance, world_->wall_distance(to));
+  if (at_end < room - kRounding) return false;
+  if (at_end > room + step_length() + kRounding) return true;
+  const double at_start = world_->clearance(from, true);
+  if (at_start < room - kRounding) return false;
+  if (at_start + at_end - step_length() > 2.0 * (room + kRounding)) return true;
+  return world_->keeps_clear(from, to, room);
 }
 
 void Robot::sonar(const Pose& pose, double* echoes) const {
@@ -288,12 +223,13 @@ WheelSpeeds Robot::turn_speeds(int motion) const {
 
 WheelSpeeds Robot::drive_speeds() const noexcept { return {def_.speed, def_.speed}; }
 
-bool Robot::fits(Point centre, double depth) const noexcept {
-  return world_->clearance(centre, true) >= def_.radius - depth;
+bool Robot::fits(const Step& step, double depth) const noexcept {
+  const Point at{step.pose.x, step.pose.y};
+  return std::min(step.clearance, world_->wall_distance(at)) >= def_.radius - depth;
 }
 
 void Robot::require_place(const Pose& pose, const char* what) const {
-  if (is_finite(pose) && fits({pose.x, pose.y}, kSlop)) return;
+  if (is_finite(pose) && world_->clearance({pose.x, pose.y}, true) >= def_.radius - kSlop) return;
   const std::string name = what;
   require_in(name + ".x", pose.x, 0.0, world_->def().width, "m");
   require_in(name + ".y", pose.y, 0.0, world_->def().height, "m");

@@ -113,7 +113,7 @@ Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
     }
   }
   robot_.require_place(pose_, "start");
-  state_ = sense(pose_);
+  state_ = sense(pose_, world.clearance({pose_.x, pose_.y}));
 }
 
 StepRecord Trial::step() {
@@ -136,7 +136,7 @@ StepRecord Trial::tick() {
   const Robot::Step moved = robot_.step(pose_, choice.motion);
 
   // motion -> next situation and its SEF (Eq. 6)
-  const State after = sense(moved.pose);
+  const State after = sense(moved.pose, moved.clearance);
 
   // evaluation (Eq. 8)
   const double smf = after.sef - before.sef;
@@ -170,25 +170,27 @@ StepRecord Trial::tick() {
   return step;
 }
 
-Trial::State Trial::sense(const Pose& pose) const {
+// `to_obstacles` is the distance from the robot's centre to the nearest of them.
+Trial::State Trial::sense(const Pose& pose, double to_obstacles) const {
   State state;
   state.situation = grid_.situation(pose.x, pose.y, pose.heading);
   const double dx = pose.x - world().def().target.x;
   const double dy = pose.y - world().def().target.y;
   state.goal_distance = std::sqrt(dx * dx + dy * dy);
-  state.clearance = clearance(pose);
+  state.clearance = clearance(pose, to_obstacles);
   state.sef = config_.evaluation(state.goal_distance, state.clearance);
   state.arrived = state.goal_distance <= config_.goal_radius;
   return state;
 }
 
 // d_o of Eq. 6.
-double Trial::clearance(const Pose& pose) const {
-  if (config_.clearance_source == ClearanceSource::kGeometric) {
-    return world().clearance({pose.x, pose.y}, config_.walls_count);
+double Trial::clearance(const Pose& pose, double to_obstacles) const {
+  if (config_.clearance_source == ClearanceSource::kSonar) {
+    const std::vector<double> echoes = robot_.sonar(pose);
+    return *std::min_element(echoes.begin(), echoes.end()) + config_.robot.radius;
   }
-  const std::vector<double> echoes = robot_.sonar(pose);
-  return *std::min_element(echoes.begin(), echoes.end()) + config_.robot.radius;
+  if (!config_.walls_count) return to_obstacles;
+  return std::min(to_obstacles, world().wall_distance({pose.x, pose.y}));
 }
 
 void Trial::begin_round() { place(world().def().start); }
@@ -208,7 +210,7 @@ void Trial::resume(const Pose& pose, std::int32_t round) {
 void Trial::put(const Pose& pose) {
   require_count("round", std::int64_t{round_} + 1, 1, kLastRound + 1);
   robot_.require_place(pose);
-  const State state = sense(pose);
+  const State state = sense(pose, world().clearance({pose.x, pose.y}));
   pose_ = pose;
   state_ = state;
   ++round_;

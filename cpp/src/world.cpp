@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
 #include "geometry.hpp"
 #include "simple_polygon.hpp"
+#include "surfaces.hpp"
 #include "world_text.hpp"
 
 namespace devlearn {
@@ -159,69 +159,6 @@ void require_start(const World& world) {
   require_finite("start.heading", start.heading);
 }
 
-Circle bound_of(const std::vector<Point>& corners) {
-  const auto [left, right] = std::minmax_element(corners.begin(), corners.end(),
-                                                 [](Point a, Point b) { return a.x < b.x; });
-  const auto [bottom, top] = std::minmax_element(corners.begin(), corners.end(),
-                                                 [](Point a, Point b) { return a.y < b.y; });
-  Circle bound{{0.5 * (left->x + right->x), 0.5 * (bottom->y + top->y)}, 0.0};
-  for (const Point& corner : corners) {
-    bound.radius = std::max(bound.radius, distance(bound.center, corner));
-  }
-  return bound;
-}
-
-// Whether a bounding circle, so far off (squared), can hold nothing nearer than `least`; the
-// margin exceeds every rounding error, so leaving the circle out never changes a result.
-bool out_of_reach(double squared, double bound_radius, double least) {
-  constexpr double kMargin = 1e-9;
-  const double reach = least + bound_radius + kMargin;
-  return squared > reach * reach;
-}
-
-// Calls f(a, b) for each side of an outline.
-template <typename F>
-void for_each_side(const std::vector<Point>& corners, F f) {
-  Point a = corners.back();
-  for (const Point& b : corners) {
-    f(a, b);
-    a = b;
-  }
-}
-
-// Whether a ray from p along the x axis crosses the side a-b.
-bool crosses_ray(Point p, Point a, Point b) {
-  return (a.y > p.y) != (b.y > p.y) && (cross(b - a, p - a) > 0.0) == (b.y > a.y);
-}
-
-double outline_distance(const std::vector<Point>& corners, Point p) {
-  double least = std::numeric_limits<double>::infinity();
-  bool inside = false;
-  for_each_side(corners, [&](Point a, Point b) {
-    least = std::min(least, squared_distance(p, a, b));
-    if (crosses_ray(p, a, b)) inside = !inside;
-  });
-  return inside ? 0.0 : std::sqrt(least);
-}
-
-double swept_outline_distance(const std::vector<Point>& corners, Point p, Point q) {
-  double least = std::numeric_limits<double>::infinity();
-  bool inside = false;
-  for_each_side(corners, [&](Point a, Point b) {
-    const bool parted = (cross(b - a, p - a) > 0.0) == (cross(b - a, q - a) > 0.0) ||
-                        (cross(q - p, a - p) > 0.0) == (cross(q - p, b - p) > 0.0);
-    least = parted ? std::min({least, squared_distance(p, a, b), squared_distance(q, a, b),
-                               squared_distance(a, p, q), squared_distance(b, p, q)})
-                   : 0.0;
-    if (crosses_ray(p, a, b)) inside = !inside;
-  });
-  return inside ? 0.0 : std::sqrt(least);
-}
-
-double wall_distance(const WorldDef& def, Point p) {
-  return std::max(0.0, std::min({p.x, def.width - p.x, p.y, def.height - p.y}));
-}
-
 }  // namespace
 
 World::World(WorldDef def) : def_(std::move(def)) {
@@ -231,27 +168,19 @@ World::World(WorldDef def) : def_(std::move(def)) {
   require_in("arena.height", def_.height, kLeastSide, kGreatestSide, "m");
   ObstacleCheck(def_).check_all();
 
-  const auto add_edges = [this](const std::vector<Point>& corners) {
-    const std::size_t n = corners.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      edges_.push_back(
-          {corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n], corners[(i + 2) % n]});
-    }
-  };
-  // Clockwise, since walls are solid on the outside.
-  add_edges({{0.0, 0.0}, {0.0, def_.height}, {def_.width, def_.height}, {def_.width, 0.0}});
+  std::vector<std::vector<Point>> outlines;
+  std::vector<Circle> circles;
   for (const Obstacle& obstacle : def_.obstacles) {
     if (const auto* circle = std::get_if<Circle>(&obstacle)) {
-      circles_.push_back(*circle);
-      continue;
+      circles.push_back(*circle);
+    } else if (const auto* rectangle = std::get_if<Rectangle>(&obstacle)) {
+      outlines.push_back(corners_of(*rectangle));
+    } else {
+      outlines.push_back(counter_clockwise(std::get<Polygon>(obstacle).corners));
     }
-    const auto* rectangle = std::get_if<Rectangle>(&obstacle);
-    std::vector<Point> corners =
-        rectangle ? corners_of(*rectangle) : counter_clockwise(std::get<Polygon>(obstacle).corners);
-    add_edges(corners);
-    const Circle bound = bound_of(corners);
-    outlines_.push_back({std::move(corners), bound});
   }
+  surfaces_ = std::make_shared<Surfaces>(def_.width, def_.height, std::move(outlines),
+                                         std::move(circles));
 
   require_start(*this);
   devlearn::require_place(*this, "target", def_.target);
@@ -264,34 +193,36 @@ World World::with_start(const Pose& start) const {
   return world;
 }
 
+double World::wall_distance(Point p) const noexcept {
+  return std::max(0.0, std::min({p.x, def_.width - p.x, p.y, def_.height - p.y}));
+}
+
 double World::clearance(Point point, bool walls_count) const noexcept {
-  double least = walls_count ? wall_distance(def_, point) : std::numeric_limits<double>::infinity();
-  for (const Circle& circle : circles_) {
-    const double squared = squared_length(point - circle.center);
-    if (out_of_reach(squared, circle.radius, least)) continue;
-    least = std::min(least, std::max(0.0, std::sqrt(squared) - circle.radius));
-  }
-  for (const Outline& outline : outlines_) {
-    const double squared = squared_length(point - outline.bound.center);
-    if (out_of_reach(squared, outline.bound.radius, least)) continue;
-    least = std::min(least, outline_distance(outline.corners, point));
-  }
-  return least;
+  const double obstacles = surfaces_->distance(point);
+  return walls_count ? std::min(obstacles, wall_distance(point)) : obstacles;
 }
 
 double World::swept_clearance(Point a, Point b) const noexcept {
-  double least = std::min(wall_distance(def_, a), wall_distance(def_, b));
-  for (const Circle& circle : circles_) {
-    const double squared = squared_distance(circle.center, a, b);
-    if (out_of_reach(squared, circle.radius, least)) continue;
-    least = std::min(least, std::max(0.0, std::sqrt(squared) - circle.radius));
+  if (clearance(a) == 0.0) return 0.0;
+  double least = std::min(wall_distance(a), wall_distance(b));
+  for (std::size_t i = 4; i < edges().size(); ++i) {
+    least = std::min(least, swept_distance(edges()[i], a, b));
   }
-  for (const Outline& outline : outlines_) {
-    const double squared = squared_distance(outline.bound.center, a, b);
-    if (out_of_reach(squared, outline.bound.radius, least)) continue;
-    least = std::min(least, swept_outline_distance(outline.corners, a, b));
-  }
+  for (const Circle& circle : circles()) least = std::min(least, swept_distance(circle, a, b));
   return least;
 }
+
+bool World::keeps_clear(Point a, Point b, double room) const noexcept {
+  return std::min(wall_distance(a), wall_distance(b)) > room &&
+         surfaces_->keep_clear_of(a, b, room);
+}
+
+World::Surroundings World::around(Point point, double reach) const {
+  return surfaces_->around(point, reach);
+}
+
+const std::vector<World::Edge>& World::edges() const noexcept { return surfaces_->edges(); }
+
+const std::vector<Circle>& World::circles() const noexcept { return surfaces_->circles(); }
 
 }  // namespace devlearn

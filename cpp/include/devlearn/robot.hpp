@@ -9,6 +9,8 @@
 
 namespace devlearn {
 
+struct Drive;
+
 /// The robot of Fig. 1: a circle on two wheels that turns, then drives forward.
 struct RobotDef {
   double radius = 0.1;       ///< r, in [0.01, 10] m
@@ -52,8 +54,9 @@ class Robot {
 
   /// Where a step led.
   struct Step {
-    Pose pose;              ///< after it
-    bool collided = false;  ///< the body touched something
+    Pose pose;               ///< after it
+    bool collided = false;   ///< the body touched something
+    double clearance = 0.0;  ///< d_o after it: world().clearance at the pose, without walls [m]
   };
 
   /// Eq. 1: turns by steering_angles[motion], then drives for one sample time. Where the swept
@@ -94,7 +97,10 @@ class Robot {
   double steering_angle(int motion) const;
   double heading_after(const Pose& pose, int motion) const;
   double step_length() const noexcept;
-  bool fits(Point centre, double depth) const noexcept;
+  Step straight_drive(const Pose& pose, double heading) const noexcept;
+  Step ended(const Pose& pose, double heading, const Drive& drive) const noexcept;
+  bool keeps_clear(const Pose& pose, const Step& straight) const noexcept;
+  bool fits(const Step& step, double depth) const noexcept;
 
   std::shared_ptr<const World> world_;
   RobotDef def_;

@@ -127,8 +127,8 @@ class Trial {
   };
   StepRecord tick();
   void put(const Pose& pose);
-  State sense(const Pose& pose) const;
-  double clearance(const Pose& pose) const;
+  State sense(const Pose& pose, double to_obstacles) const;
+  double clearance(const Pose& pose, double to_obstacles) const;
   void require_like(const Record& record, const RunOptions& options) const;
   bool run_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -50,6 +51,8 @@ struct WorldDef {
   std::vector<Obstacle> obstacles;  ///< they may overlap each other and the walls
 };
 
+class Surfaces;
+
 /// An arena with walls, obstacles, a start and a target: checked once, then unchanging.
 class World {
  public:
@@ -76,26 +79,33 @@ class World {
   /// is no obstacle; with `walls_count` the arena's walls count too. [m], exact in closed form.
   double clearance(Point point, bool walls_count = false) const noexcept;
 
+  /// Least distance from a point to the arena's walls, 0 outside [m].
+  double wall_distance(Point point) const noexcept;
+
   /// Least distance from the segment a-b, as a moving point sweeps it, to obstacles and walls [m].
+  /// Looks at every one of them.
   double swept_clearance(Point a, Point b) const noexcept;
+
+  /// Whether swept_clearance(a, b) > room > 0; looks at what is near only.
+  bool keeps_clear(Point a, Point b, double room) const noexcept;
 
   /// One straight piece of an obstacle's outline or a wall, solid on its left.
   struct Edge {
     Point before, a, b, after;  ///< the edge a-b and the corners next to it
   };
-  const std::vector<Edge>& edges() const noexcept { return edges_; }  ///< walls first
-  const std::vector<Circle>& circles() const noexcept { return circles_; }
+  const std::vector<Edge>& edges() const noexcept;  ///< walls first
+  const std::vector<Circle>& circles() const noexcept;
+
+  /// The edges and circles no further than `reach` from a point, in the order that they have there.
+  struct Surroundings {
+    std::vector<Edge> edges;
+    std::vector<Circle> circles;
+  };
+  Surroundings around(Point point, double reach) const;
 
  private:
   WorldDef def_;
-  std::vector<Edge> edges_;
-  std::vector<Circle> circles_;
-  // One polygon or rectangle: its corners, counter-clockwise, and a circle around them.
-  struct Outline {
-    std::vector<Point> corners;
-    Circle bound;
-  };
-  std::vector<Outline> outlines_;
+  std::shared_ptr<const Surfaces> surfaces_;  // copies share them
 };
 
 }  // namespace devlearn

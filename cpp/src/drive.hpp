@@ -1,0 +1,40 @@
+#pragma once
+
+#include <box2d/b2_math.h>
+
+#include <optional>
+
+#include "devlearn/robot.hpp"
+#include "devlearn/world.hpp"
+
+// How a drive along surfaces comes out, as Box2D has it.
+namespace devlearn {
+
+/// The least number of parts of a drive so short that none goes deeper than Box2D's slop.
+int substeps_of(const RobotDef& robot);
+
+/// Rounds of Box2D's solver: few do, but not where surfaces wedge the body.
+constexpr int kFewRounds = 8, kManyRounds = 60;
+
+struct Drive {
+  Point moved;           ///< from where it began
+  bool touched = false;  ///< anything, at any time
+};
+
+/// Drives from a point along a heading, in a Box2D world of its own that is made of what lies
+/// within reach: the outcome depends on nothing that happened before.
+Drive drive_in_box2d(const World& world, const RobotDef& robot, Point from, double heading,
+                     int substeps, int rounds);
+
+/// The same to the bit, where the body never touches two surfaces at once; else nothing. Box2D's
+/// own arithmetic for one disc that does not turn, without its bookkeeping.
+std::optional<Drive> drive_along_one(const World& world, const RobotDef& robot, Point from,
+                                     double heading, int substeps, int rounds);
+
+inline b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
+
+inline Point along(Point from, Point direction, double length) {
+  return {from.x + length * direction.x, from.y + length * direction.y};
+}
+
+}  // namespace devlearn

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "devlearn/world.hpp"
+
+namespace devlearn {
+
+/// What a world's obstacles are bounded by, and a tree of square cells that leads from a point to
+/// the few of them that can be the nearest there.
+///
+/// A surface (an edge or a circle) is d_s away from a cell's centre, the nearest one d. No point of
+/// the cell is further than rho from the centre, so the nearest there is at most d + rho away, and
+/// what is nearest anywhere in the cell has d_s - rho <= d + rho. These a cell holds; leaving out
+/// the others changes no result, since kMargin exceeds what rounding can do to the comparison.
+/// Moreover a cell holds every surface that has a point in it (d_s <= rho).
+class Surfaces {
+ public:
+  /// Of an arena with walls around (0, 0) to (width, height), outlines counter-clockwise.
+  Surfaces(double width, double height, std::vector<std::vector<Point>> outlines,
+           std::vector<Circle> circles);
+
+  /// Least distance from p to an obstacle, 0 inside one, infinite where there is none.
+  double distance(Point p) const noexcept;
+
+  /// Whether all obstacles keep more than `room` from the segment p-q.
+  bool keep_clear_of(Point p, Point q, double room) const noexcept;
+
+  /// Edges and circles no further than `reach` from p, each in the order of edges() and circles().
+  World::Surroundings around(Point p, double reach) const;
+
+  const std::vector<World::Edge>& edges() const noexcept { return edges_; }  ///< walls first
+  const std::vector<Circle>& circles() const noexcept { return circles_; }
+
+ private:
+  static constexpr double kMargin = 1e-9;  // [m]
+  static constexpr int kDepth = 10;        // of the tree; each level has cells a quarter as wide
+  static constexpr std::uint32_t kFinest = 1U << (2 * kDepth);
+
+  struct Box {  // with sides along the axes
+    Point low, high;
+    bool contains(Point p) const noexcept {
+      return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y;
+    }
+    bool overlaps(const Box& other) const noexcept {
+      return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y &&
+             other.low.y <= high.y;
+    }
+    Box grown_by(double margin) const noexcept {
+      return {{low.x - margin, low.y - margin}, {high.x + margin, high.y + margin}};
+    }
+  };
+  struct Square {
+    Point low;
+    double side = 0.0;
+    Box box() const noexcept { return {low, {low.x + side, low.y + side}}; }
+    Square part(int i) const noexcept {
+      const double quarter = 0.25 * side;
+      return {{low.x + i % 4 * quarter, low.y + i / 4 * quarter}, quarter};
+    }
+  };
+  struct Outline {  // of a polygon or rectangle
+    std::vector<Point> corners;
+    Box bound;
+    bool contains(Point p) const noexcept;
+  };
+  // What a cell may hold. Surfaces are edges by index, then circles by index + edges_.size().
+  struct Candidates {
+    std::vector<std::uint32_t> surfaces, outlines;
+  };
+  // A leaf's part of held_: edges, circles, and the outlines that may contain its points. A split
+  // cell ends before it begins and has its sixteen parts from cells_[first] on, row by row.
+  struct Cell {
+    std::uint32_t first = 0, circles = 0, outlines = 0, last = 0;
+    bool is_split() const noexcept { return first > last; }
+  };
+
+  void add_edges(const std::vector<Point>& corners);
+  void build();
+  Candidates held_in(const Square& square, const Candidates& candidates) const;
+  Cell store(const Candidates& held);
+  double distance(std::uint32_t surface, Point p) const noexcept;
+  const Cell& leaf(Point p) const noexcept;
+  bool inside_outline(const Cell& leaf, Point p) const noexcept;
+
+  // Calls f(leaf) for all leaves that overlap the box, which hold every surface that has a point in
+  // it; goes on while f returns true.
+  template <typename F>
+  bool visit(const Box& box, const F& f) const;
+  template <typename F>
+  bool visit(const Cell& cell, const Square& square, const Box& box, const F& f) const;
+
+  std::vector<World::Edge> edges_;
+  std::vector<Circle> circles_;
+  std::vector<Outline> outlines_;
+
+  Square root_;
+  double finest_per_metre_ = 0.0;
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> held_;
+  Cell everything_;  // for points outside the root
+};
+
+}  // namespace devlearn
