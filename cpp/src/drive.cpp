@@ -43,12 +43,12 @@ struct Scene {
     const double reach = robot.radius + robot.speed * robot.sample_time + kMargin;
     const World::Surroundings near = world.around(from, reach);
     edges.resize(near.edges.size());
+    circles.resize(near.circles.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const World::Edge part = near_part(near.edges[i], from, reach + 1.0);
       edges[i].SetOneSided(vector(part.before - from), vector(part.a - from), vector(part.b - from),
                            vector(part.after - from));
     }
-    circles.resize(near.circles.size());
     for (std::size_t i = 0; i < circles.size(); ++i) {
       circles[i].m_p = vector(near.circles[i].center - from);
       circles[i].m_radius = static_cast<float>(near.circles[i].radius);

@@ -1,6 +1,9 @@
 #include "devlearn/math.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace devlearn {
@@ -33,41 +36,10 @@ double cosine(double x) noexcept {
   return 1.0 - (0.5 * s - s * s * polynomial(s, c));
 }
 
-}  // namespace
-
-double exponential(double x) noexcept {
-  // e^x = 2^k e^r with |r| <= ln(2)/2; ln 2 is split so that x - k ln2 keeps its low bits.
-  constexpr double kInverseLn2 = 1.44269504088896340736;
-  constexpr double kLn2High = 0x1.62e42fee00000p-1;
-  constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
-  if (std::isnan(x)) return x;
-  if (x > 709.79) return std::numeric_limits<double>::infinity();
-  if (x < -745.2) return 0.0;
-
-  const double k = std::floor(x * kInverseLn2 + 0.5);
-  const double high = x - k * kLn2High;
-  const double low = k * kLn2Low;
-  const double r = high - low;
-  const double lost = (high - r) - low;  // what rounding r dropped
-  static constexpr double c[] = {1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
-                                 1.0 / 362880,     1.0 / 40320,     1.0 / 5040,     1.0 / 720,
-                                 1.0 / 120,        1.0 / 24,        1.0 / 6,        0.5};
-  const double power = 1.0 + (r + (r * r * polynomial(r, c) + lost));
-  return std::ldexp(power, static_cast<int>(k));
-}
-
-double wrapped_heading(double heading) noexcept {
-  if (heading >= 0.0 && heading < 360.0) return heading + 0.0;  // no -0
-  double wrapped = std::fmod(heading, 360.0);
-  if (wrapped < 0.0) wrapped += 360.0;
-  // A tiny negative heading rounds up to 360.
-  return wrapped < 360.0 ? wrapped + 0.0 : 0.0;
-}
-
-Direction direction(double heading) noexcept {
-  const double wrapped = wrapped_heading(heading);
-  const int quarter = static_cast<int>(std::floor(wrapped / 90.0 + 0.5));
-  const double angle = (wrapped - 90.0 * quarter) * (kPi / 180.0);
+// Of a heading in [0, 360) degrees.
+Direction unit_vector(double heading) noexcept {
+  const int quarter = static_cast<int>(heading / 90.0 + 0.5);
+  const double angle = (heading - 90.0 * quarter) * (kPi / 180.0);
   const double c = cosine(angle), s = sine(angle);
   switch (quarter % 4) {
     case 0:
@@ -79,6 +51,56 @@ Direction direction(double heading) noexcept {
     default:
       return {s, 0.0 - c};
   }
+}
+
+}  // namespace
+
+double exponential(double x) noexcept {
+  // e^x = 2^k e^r with |r| <= ln(2)/2; ln 2 is split so that x - k ln2 keeps its low bits.
+  constexpr double kInverseLn2 = 1.44269504088896340736;
+  constexpr double kLn2High = 0x1.62e42fee00000p-1;
+  constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
+  if (std::isnan(x)) return x;
+  if (x > 709.79) return std::numeric_limits<double>::infinity();
+  if (x < -745.2) return 0.0;
+
+  const double nearest = x * kInverseLn2 + 0.5;
+  int power_of_two = static_cast<int>(nearest);
+  if (power_of_two > nearest) --power_of_two;
+  const double k = power_of_two;
+  const double high = x - k * kLn2High;
+  const double low = k * kLn2Low;
+  const double r = high - low;
+  const double lost = (high - r) - low;  // what rounding r dropped
+  static constexpr double c[] = {1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
+                                 1.0 / 362880,     1.0 / 40320,     1.0 / 5040,     1.0 / 720,
+                                 1.0 / 120,        1.0 / 24,        1.0 / 6,        0.5};
+  const double power = 1.0 + (r + (r * r * polynomial(r, c) + lost));
+  if (power_of_two < -1021 || power_of_two > 1023) return std::ldexp(power, power_of_two);
+  // 2^k by its bits: the product is no subnormal and so exact.
+  const auto bits = static_cast<std::uint64_t>(power_of_two + 1023) << 52;
+  double scale;
+  std::memcpy(&scale, &bits, sizeof scale);
+  return power * scale;
+}
+
+double wrapped_heading(double heading) noexcept {
+  if (heading >= 0.0 && heading < 360.0) return heading + 0.0;  // no -0
+  double wrapped = std::fmod(heading, 360.0);
+  if (wrapped < 0.0) wrapped += 360.0;
+  // A tiny negative heading rounds up to 360.
+  return wrapped < 360.0 ? wrapped + 0.0 : 0.0;
+}
+
+Direction direction(double heading) noexcept {
+  static const auto whole_degrees = [] {
+    std::array<Direction, 360> table;
+    for (int degrees = 0; degrees < 360; ++degrees) table[degrees] = unit_vector(degrees);
+    return table;
+  }();
+  const double wrapped = wrapped_heading(heading);
+  const int degrees = static_cast<int>(wrapped);
+  return degrees == wrapped ? whole_degrees[degrees] : unit_vector(wrapped);
 }
 
 }  // namespace devlearn
