@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "box2d_vector.hpp"
 #include "devlearn/math.hpp"
 #include "geometry.hpp"
 
@@ -37,15 +38,11 @@ World::Edge near_part(const World::Edge& edge, Point point, double reach) {
 
 // What takes part in a drive, its origin where the body begins.
 struct Scene {
-  Scene(const World& world, const RobotDef& robot, Point from, double heading) {
-    // Contacts only ever slow the body, so it stays within a step of where it began.
-    constexpr double kMargin = 0.05;
-    const double reach = robot.radius + robot.speed * robot.sample_time + kMargin;
-    const World::Surroundings near = world.around(from, reach);
+  Scene(const World::Surroundings& near, const RobotDef& robot, Point from, double heading) {
     edges.resize(near.edges.size());
     circles.resize(near.circles.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const World::Edge part = near_part(near.edges[i], from, reach + 1.0);
+      const World::Edge part = near_part(near.edges[i], from, reach_of(robot) + 1.0);
       edges[i].SetOneSided(vector(part.before - from), vector(part.a - from), vector(part.b - from),
                            vector(part.after - from));
     }
@@ -87,9 +84,15 @@ int substeps_of(const RobotDef& robot) {
   return std::max(kLeastSubsteps, static_cast<int>(std::ceil(length / kLongestSubstep)));
 }
 
-Drive drive_in_box2d(const World& world, const RobotDef& robot, Point from, double heading,
-                     int substeps, int rounds) {
-  const Scene scene(world, robot, from, heading);
+double reach_of(const RobotDef& robot) {
+  // Contacts only ever slow the body, so it stays within a step of where it began.
+  constexpr double kMargin = 0.05;
+  return robot.radius + robot.speed * robot.sample_time + kMargin;
+}
+
+Drive drive_in_box2d(const World::Surroundings& near, const RobotDef& robot, Point from,
+                     double heading, int substeps, int rounds) {
+  const Scene scene(near, robot, from, heading);
   b2World physics(b2Vec2(0.0f, 0.0f));
   physics.SetAllowSleeping(false);
   physics.SetWarmStarting(false);
@@ -127,9 +130,9 @@ Drive drive_in_box2d(const World& world, const RobotDef& robot, Point from, doub
 
 // b2World::Step, with b2ContactSolver's operations in their order. What they multiply by zero here
 // (turning, friction, restitution, the ground's motion) is left out.
-std::optional<Drive> drive_along_one(const World& world, const RobotDef& robot, Point from,
-                                     double heading, int substeps, int rounds) {
-  const Scene scene(world, robot, from, heading);
+std::optional<Drive> drive_along_one(const World::Surroundings& near, const RobotDef& robot,
+                                     Point from, double heading, int substeps, int rounds) {
+  const Scene scene(near, robot, from, heading);
   const float time = substep_time(robot, substeps);
   b2MassData mass;
   scene.body.ComputeMass(&mass, Scene::kDensity);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <box2d/b2_math.h>
-
 #include <optional>
 
 #include "devlearn/robot.hpp"
@@ -21,20 +19,17 @@ struct Drive {
   bool touched = false;  ///< anything, at any time
 };
 
-/// Drives from a point along a heading, in a Box2D world of its own that is made of what lies
-/// within reach: the outcome depends on nothing that happened before.
-Drive drive_in_box2d(const World& world, const RobotDef& robot, Point from, double heading,
-                     int substeps, int rounds);
+/// How far from where a drive begins something may lie that it touches [m].
+double reach_of(const RobotDef& robot);
+
+/// Drives from a point along a heading, in a Box2D world of its own that is made of what is near
+/// (World::around that point, up to reach_of): the outcome depends on nothing that happened before.
+Drive drive_in_box2d(const World::Surroundings& near, const RobotDef& robot, Point from,
+                     double heading, int substeps, int rounds);
 
 /// The same to the bit, where the body never touches two surfaces at once; else nothing. Box2D's
 /// own arithmetic for one disc that does not turn, without its bookkeeping.
-std::optional<Drive> drive_along_one(const World& world, const RobotDef& robot, Point from,
-                                     double heading, int substeps, int rounds);
-
-inline b2Vec2 vector(Point p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
-
-inline Point along(Point from, Point direction, double length) {
-  return {from.x + length * direction.x, from.y + length * direction.y};
-}
+std::optional<Drive> drive_along_one(const World::Surroundings& near, const RobotDef& robot,
+                                     Point from, double heading, int substeps, int rounds);
 
 }  // namespace devlearn

@@ -14,6 +14,11 @@ inline double cross(Point u, Point v) noexcept { return u.x * v.y - u.y * v.x; }
 inline double squared_length(Point u) noexcept { return dot(u, u); }
 inline double distance(Point a, Point b) noexcept { return std::sqrt(squared_length(a - b)); }
 
+/// The point `from` + length * direction.
+inline Point along(Point from, Point direction, double length) noexcept {
+  return {from.x + length * direction.x, from.y + length * direction.y};
+}
+
 /// Squared distance from p to the segment a-b, which may be a mere point.
 inline double squared_distance(Point p, Point a, Point b) noexcept {
   const Point along = b - a, to = p - a;

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "box2d_vector.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
 #include "drive.hpp"
@@ -150,10 +151,11 @@ Robot::Step Robot::step(const Pose& pose, int motion) const {
 
   require_place(pose);
   const Point from{pose.x, pose.y};
+  const World::Surroundings near = world_->around(from, reach_of(def_));
   const int substeps = substeps_of(def_);
   for (const int rounds : {kFewRounds, kManyRounds}) {
-    auto drive = drive_along_one(*world_, def_, from, heading, substeps, rounds);
-    if (!drive) drive = drive_in_box2d(*world_, def_, from, heading, substeps, rounds);
+    auto drive = drive_along_one(near, def_, from, heading, substeps, rounds);
+    if (!drive) drive = drive_in_box2d(near, def_, from, heading, substeps, rounds);
     const Step end = drive->touched ? ended(pose, heading, *drive) : straight;
     if (fits(end, rounds == kFewRounds ? kShallow : kSlop)) return end;
   }
@@ -165,8 +167,9 @@ Robot::Step Robot::step_simulated(const Pose& pose, int motion, int substeps) co
   require_count("substeps", substeps, 1, kMostSubsteps);
   require_place(pose);
   const double heading = heading_after(pose, motion);
-  return ended(pose, heading,
-               drive_in_box2d(*world_, def_, {pose.x, pose.y}, heading, substeps, kFewRounds));
+  const Point from{pose.x, pose.y};
+  const World::Surroundings near = world_->around(from, reach_of(def_));
+  return ended(pose, heading, drive_in_box2d(near, def_, from, heading, substeps, kFewRounds));
 }
 
 Robot::Step Robot::straight_drive(const Pose& pose, double heading) const noexcept {

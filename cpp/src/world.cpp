@@ -179,8 +179,8 @@ World::World(WorldDef def) : def_(std::move(def)) {
       outlines.push_back(counter_clockwise(std::get<Polygon>(obstacle).corners));
     }
   }
-  surfaces_ = std::make_shared<Surfaces>(def_.width, def_.height, std::move(outlines),
-                                         std::move(circles));
+  surfaces_ =
+      std::make_shared<Surfaces>(def_.width, def_.height, std::move(outlines), std::move(circles));
 
   require_start(*this);
   devlearn::require_place(*this, "target", def_.target);

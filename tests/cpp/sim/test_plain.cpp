@@ -1,0 +1,107 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "devlearn/random.hpp"
+#include "devlearn/robot.hpp"
+#include "devlearn/trial.hpp"
+#include "plain.hpp"
+#include "random_worlds.hpp"
+
+// Every fast path gives what the plain rules of plain.hpp give, to the last bit.
+
+using namespace devlearn;
+
+namespace {
+
+bool same(const Robot::Step& a, const Robot::Step& b) {
+  return a.pose == b.pose && a.collided == b.collided && a.clearance == b.clearance;
+}
+
+}  // namespace
+
+TEST_CASE("Clearances and surroundings are those of a look at everything, to the bit") {
+  Random random(11, "plain clearance");
+  long differ = 0, inside = 0, free = 0;
+  for (int n = 0; n < 100; ++n) {
+    const World world = random_world(random, 1 + static_cast<int>(random.index(60)), 4.0);
+    for (int i = 0; i < 500; ++i) {
+      const Point p{between(random, -1.5, 5.5), between(random, -1.5, 5.5)};
+      const Point q{p.x + between(random, -0.3, 0.3), p.y + between(random, -0.3, 0.3)};
+      const double room = between(random, 0.01, 0.5), clearance = world.clearance(p);
+      differ += clearance != plain::clearance(world, p);
+      differ += world.swept_clearance(p, q) != plain::swept_clearance(world, p, q);
+      const bool clear = world.keeps_clear(p, q, room);
+      differ += clear != (plain::swept_clearance(world, p, q) > room);
+      const World::Surroundings near = world.around(p, room);
+      const World::Surroundings expected = plain::around(world, p, room);
+      differ += !std::equal(near.edges.begin(), near.edges.end(), expected.edges.begin(),
+                            expected.edges.end(),
+                            [](auto& a, auto& b) { return a.a == b.a && a.b == b.b; });
+      differ += !std::equal(near.circles.begin(), near.circles.end(), expected.circles.begin(),
+                            expected.circles.end(), [](auto& a, auto& b) {
+                              return a.center == b.center && a.radius == b.radius;
+                            });
+      inside += clearance == 0.0;
+      free += clear;
+    }
+  }
+  CHECK(differ == 0);
+  CHECK(inside > 1000);
+  CHECK(free > 1000);
+}
+
+TEST_CASE("Steps are those of Box2D's own world wherever they are not free, to the bit") {
+  Random random(12, "plain steps");
+  long steps = 0, contacts = 0, different = 0;
+  while (steps < 800'000) {
+    RobotDef def;
+    def.radius = between(random, 0.03, 0.15);
+    def.speed = between(random, 0.02, random.index(20) == 0 ? 1.0 : 0.2);
+    const Robot robot(random_world(random, 15, 4.0), def);
+    const auto start = free_pose(random, robot.world(), def.radius);
+    if (!start) continue;
+    Pose pose = *start;
+    for (int i = 0; i < 4000; ++i, ++steps) {
+      const int motion = static_cast<int>(random.index(5));
+      const Robot::Step step = robot.step(pose, motion);
+      different += !same(step, plain::step(robot, pose, motion));
+      contacts += step.collided;
+      pose = step.pose;
+    }
+  }
+  MESSAGE(steps << " steps, " << contacts << " with contact");
+  CHECK(different == 0);
+  CHECK(contacts * 20 >= steps);
+}
+
+TEST_CASE("Histories of learning are those of the plain loop, to the bit") {
+  constexpr int kSteps = 5000;
+  Random random(13, "plain histories");
+  long steps = 0, contacts = 0;
+  for (int n = 0; steps < 200'000; ++n) {
+    TrialConfig config = n % 2 == 0 ? TrialConfig::paper() : TrialConfig::step5();
+    const World world = random_world(random, 12, 3.0);
+    const Pose& start = world.def().start;
+    if (world.clearance({start.x, start.y}, true) < config.robot.radius) continue;
+    const auto seed = static_cast<std::uint64_t>(n);
+    const Record record = Trial(world, config, seed).free_learning(kSteps);
+    const Record expected = plain::free_learning(world, config, seed, kSteps);
+    REQUIRE(record.situation == expected.situation);
+    REQUIRE(record.motion == expected.motion);
+    REQUIRE(record.sef == expected.sef);
+    REQUIRE(record.smf_used == expected.smf_used);
+    REQUIRE(record.collided == expected.collided);
+    REQUIRE(record.clearance == expected.clearance);
+    REQUIRE(record.event == expected.event);
+    REQUIRE(record.x == expected.x);
+    REQUIRE(record.y == expected.y);
+    REQUIRE(record.heading == expected.heading);
+    steps += kSteps;
+    contacts += std::count(record.collided.begin(), record.collided.end(), 1);
+  }
+  MESSAGE(steps << " steps, " << contacts << " with contact");
+  CHECK(contacts * 20 >= steps);
+}
