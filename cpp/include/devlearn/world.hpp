@@ -94,13 +94,14 @@ class World {
     Point before, a, b, after;  ///< the edge a-b and the corners next to it
   };
   const std::vector<Edge>& edges() const noexcept;  ///< walls first
-  const std::vector<Circle>& circles() const noexcept;
+  const std::vector<Circle>& circles() const noexcept;  ///< of all obstacles that are circles
 
-  /// The edges and circles no further than `reach` from a point, in the order that they have there.
+  /// What is near a point.
   struct Surroundings {
-    std::vector<Edge> edges;
-    std::vector<Circle> circles;
+    std::vector<Edge> edges;      ///< in the order of World::edges
+    std::vector<Circle> circles;  ///< in the order of World::circles
   };
+  /// The edges and circles no further than `reach` [m] from a point; looks at what is near only.
   Surroundings around(Point point, double reach) const;
 
  private:
