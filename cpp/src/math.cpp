@@ -11,7 +11,7 @@ namespace {
 
 // Horner's rule, highest power first.
 template <int N>
-double polynomial(double x, const double (&coefficients)[N]) noexcept {
+constexpr double polynomial(double x, const double (&coefficients)[N]) noexcept {
   double sum = coefficients[0];
   for (int i = 1; i < N; ++i) sum = sum * x + coefficients[i];
   return sum;
@@ -20,27 +20,18 @@ double polynomial(double x, const double (&coefficients)[N]) noexcept {
 constexpr double kPi = 3.14159265358979323846;
 
 // Taylor series, enough for a double on [-pi/4, pi/4].
-double sine(double x) noexcept {
-  const double s = x * x;
-  static constexpr double c[] = {
-      -1.0 / 1307674368000, 1.0 / 6227020800, -1.0 / 39916800, 1.0 / 362880,
-      -1.0 / 5040,          1.0 / 120,        -1.0 / 6};
-  return x + x * (s * polynomial(s, c));
-}
-
-double cosine(double x) noexcept {
-  const double s = x * x;
-  static constexpr double c[] = {
-      1.0 / 20922789888000, -1.0 / 87178291200, 1.0 / 479001600, -1.0 / 3628800,
-      1.0 / 40320,          -1.0 / 720,         1.0 / 24};
-  return 1.0 - (0.5 * s - s * s * polynomial(s, c));
-}
+constexpr double kSine[] = {-1.0 / 1307674368000, 1.0 / 6227020800, -1.0 / 39916800, 1.0 / 362880,
+                            -1.0 / 5040,          1.0 / 120,        -1.0 / 6};
+constexpr double kCosine[] = {
+    1.0 / 20922789888000, -1.0 / 87178291200, 1.0 / 479001600, -1.0 / 3628800,
+    1.0 / 40320,          -1.0 / 720,         1.0 / 24};
 
 // Of a heading in [0, 360) degrees.
-Direction unit_vector(double heading) noexcept {
+constexpr Direction unit_vector(double heading) noexcept {
   const int quarter = static_cast<int>(heading / 90.0 + 0.5);
-  const double angle = (heading - 90.0 * quarter) * (kPi / 180.0);
-  const double c = cosine(angle), s = sine(angle);
+  const double x = (heading - 90.0 * quarter) * (kPi / 180.0), square = x * x;
+  const double c = 1.0 - (0.5 * square - square * square * polynomial(square, kCosine));
+  const double s = x + x * (square * polynomial(square, kSine));
   switch (quarter % 4) {
     case 0:
       return {c, s};
@@ -52,6 +43,14 @@ Direction unit_vector(double heading) noexcept {
       return {s, 0.0 - c};
   }
 }
+
+constexpr auto kWholeDegrees = [] {
+  std::array<Direction, 360> vectors{};
+  for (std::size_t degrees = 0; degrees < vectors.size(); ++degrees) {
+    vectors[degrees] = unit_vector(static_cast<double>(degrees));
+  }
+  return vectors;
+}();
 
 }  // namespace
 
@@ -93,14 +92,10 @@ double wrapped_heading(double heading) noexcept {
 }
 
 Direction direction(double heading) noexcept {
-  static const auto whole_degrees = [] {
-    std::array<Direction, 360> table;
-    for (int degrees = 0; degrees < 360; ++degrees) table[degrees] = unit_vector(degrees);
-    return table;
-  }();
   const double wrapped = wrapped_heading(heading);
   const int degrees = static_cast<int>(wrapped);
-  return degrees == wrapped ? whole_degrees[degrees] : unit_vector(wrapped);
+  return degrees == wrapped ? kWholeDegrees[static_cast<std::size_t>(degrees)]
+                            : unit_vector(wrapped);
 }
 
 }  // namespace devlearn
