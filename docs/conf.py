@@ -17,7 +17,7 @@ version = release = re.search(
 )[1]
 # The sources are the whole tree's, so that links lead where they do when read as files.
 root_doc = "docs/index"
-include_patterns = ["*.md", "docs/**", "examples/*.md"]
+include_patterns = ["*.md", "docs/**", "examples/*.md", "bench/*.md"]
 exclude_patterns = [".*", "build", "out"]
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 myst_heading_anchors = 3

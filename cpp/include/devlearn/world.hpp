@@ -91,7 +91,10 @@ class World {
 
   /// One straight piece of an obstacle's outline or a wall, solid on its left.
   struct Edge {
-    Point before, a, b, after;  ///< the edge a-b and the corners next to it
+    ///@{
+    /// The edge a-b and the corners next to it.
+    Point before, a, b, after;
+    ///@}
   };
   const std::vector<Edge>& edges() const noexcept;  ///< walls first
   const std::vector<Circle>& circles() const noexcept;  ///< of all obstacles that are circles
