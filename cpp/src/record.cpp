@@ -10,13 +10,14 @@
 namespace devlearn {
 namespace {
 
-// Room for one more in every column before the first grows, so that they stay of one length where
+// Room for some more in every column before the first grows, so that they stay of one length where
 // memory ends.
 template <typename... Columns>
-void make_room(Columns&... columns) {
-  const auto grow = [](auto& column) {
-    if (column.size() < column.capacity()) return;
-    column.reserve(std::max<std::size_t>(64, 2 * column.size()));
+void make_room(std::size_t more, Columns&... columns) {
+  const auto grow = [&](auto& column) {
+    const std::size_t size = column.size();
+    if (column.capacity() - size >= more) return;
+    column.reserve(std::max<std::size_t>({64, size + more, 2 * size}));
   };
   (grow(columns), ...);
 }
@@ -37,16 +38,21 @@ void Record::begin_round(std::int32_t number, const Pose& pose) {
       Pose{x.back(), y.back(), heading.back()} == pose) {
     return;
   }
-  make_room(rounds, x, y, heading);
+  make_room(1, rounds, x, y, heading);
   rounds.push_back({number, 0, false});
   x.push_back(pose.x);
   y.push_back(pose.y);
   heading.push_back(pose.heading);
 }
 
+void Record::reserve(std::size_t more) {
+  make_room(more, round, situation, motion, kind, sef, smf, smf_used, collided, arrived,
+            goal_distance, clearance, event, reduced, explored_count, effective_count, x, y,
+            heading);
+}
+
 void Record::append(const StepRecord& step) {
-  make_room(round, situation, motion, kind, sef, smf, smf_used, collided, arrived, goal_distance,
-            clearance, event, reduced, explored_count, effective_count, x, y, heading);
+  reserve(1);
   round.push_back(step.round);
   situation.push_back(step.situation);
   motion.push_back(step.motion);
@@ -65,6 +71,10 @@ void Record::append(const StepRecord& step) {
   x.push_back(step.pose.x);
   y.push_back(step.pose.y);
   heading.push_back(step.pose.heading);
+  count(step);
+}
+
+void Record::count(const StepRecord& step) noexcept {
   rounds.back().steps += 1;
   rounds.back().arrived |= step.arrived;
 }

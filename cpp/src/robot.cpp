@@ -118,7 +118,6 @@ struct Robot::Physics {
 Robot::Robot(const World& world, const RobotDef& def)
     : world_(std::make_shared<World>(world)), def_(def) {
   def_.validate();
-  physics_ = std::make_unique<Physics>(*world_, def_);
 }
 Robot::~Robot() = default;
 Robot::Robot(Robot&&) noexcept = default;
@@ -197,14 +196,19 @@ bool Robot::keeps_clear(const Pose& pose, const Step& straight) const noexcept {
   return world_->keeps_clear(from, to, room);
 }
 
+const Robot::Physics& Robot::physics() const {
+  if (!physics_) physics_ = std::make_unique<Physics>(*world_, def_);
+  return *physics_;
+}
+
 void Robot::sonar(const Pose& pose, double* echoes) const {
   require_place(pose);
   // From the centre: the body holds nothing but slop, and no ray begins inside a shape.
   const double reach = def_.radius + def_.sonar_range;
-  for (const double angle : physics_->sonar_angles) {
+  for (const double angle : physics().sonar_angles) {
     const Direction ray = direction(pose.heading + angle);
     NearestHit nearest;
-    physics_->standing.RayCast(&nearest, vector({pose.x, pose.y}),
+    physics().standing.RayCast(&nearest, vector({pose.x, pose.y}),
                                vector({pose.x + reach * ray.x, pose.y + reach * ray.y}));
     const double echo = static_cast<double>(nearest.fraction) * reach - def_.radius;
     *echoes++ = nearest.hit ? std::clamp(echo, 0.0, def_.sonar_range) : def_.sonar_range;

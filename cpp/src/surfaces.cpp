@@ -229,31 +229,41 @@ bool Surfaces::keep_clear_of(Point p, Point q, double room) const noexcept {
 
 World::Surroundings Surfaces::around(Point p, double reach) const {
   std::vector<std::uint32_t> edges, circles;
-  edges.reserve(32);
-  for (std::uint32_t i = 0; i < kWalls; ++i) edges.push_back(i);
-  const auto add = [](std::vector<std::uint32_t>& to, std::uint32_t index) {
-    if (std::find(to.rbegin(), to.rend(), index) == to.rend()) to.push_back(index);
+  edges.reserve(16);
+  const auto edge_reached = [&](std::uint32_t i) {
+    return squared_distance(p, edges_[i].a, edges_[i].b) <= reach * reach;
+  };
+  const auto circle_reached = [&](std::uint32_t i) {
+    return devlearn::distance(p, circles_[i].center) - circles_[i].radius <= reach;
+  };
+  for (std::uint32_t i = 0; i < kWalls; ++i) {
+    if (edge_reached(i)) edges.push_back(i);
+  }
+  std::vector<bool> seen(edges_.size() + circles_.size());
+  const auto first_time = [&](std::size_t surface) {
+    const bool first = !seen[surface];
+    seen[surface] = true;
+    return first;
   };
   visit(Box{p, p}.grown_by(reach), [&](const Cell& cell) {
-    for (std::uint32_t i = cell.first; i < cell.circles; ++i) add(edges, held_[i]);
-    for (std::uint32_t i = cell.circles; i < cell.outlines; ++i) add(circles, held_[i]);
+    for (std::uint32_t k = cell.first; k < cell.circles; ++k) {
+      const std::uint32_t i = held_[k];
+      if (first_time(i) && edge_reached(i)) edges.push_back(i);
+    }
+    for (std::uint32_t k = cell.circles; k < cell.outlines; ++k) {
+      const std::uint32_t i = held_[k];
+      if (first_time(edges_.size() + i) && circle_reached(i)) circles.push_back(i);
+    }
     return true;
   });
   std::sort(edges.begin(), edges.end());
   std::sort(circles.begin(), circles.end());
 
   World::Surroundings near;
-  near.edges.reserve(8);
-  for (const std::uint32_t i : edges) {
-    const World::Edge& edge = edges_[i];
-    if (squared_distance(p, edge.a, edge.b) <= reach * reach) near.edges.push_back(edge);
-  }
-  for (const std::uint32_t i : circles) {
-    const Circle& circle = circles_[i];
-    if (devlearn::distance(p, circle.center) - circle.radius <= reach) {
-      near.circles.push_back(circle);
-    }
-  }
+  near.edges.reserve(edges.size());
+  near.circles.reserve(circles.size());
+  for (const std::uint32_t i : edges) near.edges.push_back(edges_[i]);
+  for (const std::uint32_t i : circles) near.circles.push_back(circles_[i]);
   return near;
 }
 

@@ -15,6 +15,9 @@ constexpr double kCollisionSmf = -1.0;
 
 constexpr std::int64_t kStepsBetweenInterrupts = 8;
 
+// For how many steps room is made in a record beforehand, at most.
+constexpr std::int64_t kStepsAtOnce = 65536;
+
 constexpr std::int64_t kLastRound = std::int64_t{1} << 30;
 
 // One call at a time: an agent that calls its trial back would pull the step from under itself.
@@ -252,8 +255,15 @@ void Trial::finish_round(Record& record, std::int64_t steps, const RunOptions& o
   run_on(record, steps, true, options);
 }
 
-// A record holds echoes of every step or of none.
+// A record holds every step or none, and echoes of every one or of none.
 void Trial::require_like(const Record& record, const RunOptions& options) const {
+  if (options.rounds_only && options.echoes) {
+    throw InvalidValue("rounds_only", "true, and echoes too", "only one of them");
+  }
+  if (!record.rounds.empty() && record.x.empty() != options.rounds_only) {
+    throw InvalidValue("rounds_only", options.rounds_only ? "true" : "false",
+                       "as in the rounds that the record already has");
+  }
   const int sonars = options.echoes ? config_.robot.sonar_count : 0;
   if (record.steps() > 0 && record.sonar_count != sonars) {
     throw InvalidValue("record.sonar_count", std::to_string(record.sonar_count),
@@ -265,12 +275,22 @@ void Trial::require_like(const Record& record, const RunOptions& options) const 
 bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
                    const RunOptions& options) {
   record.sonar_count = options.echoes ? config_.robot.sonar_count : 0;
-  record.begin_round(round_, pose_);
+  if (!options.rounds_only) {
+    record.begin_round(round_, pose_);
+    if (!until_arrival) record.reserve(static_cast<std::size_t>(std::min(steps, kStepsAtOnce)));
+  } else if (record.rounds.empty() || record.rounds.back().round != round_) {
+    record.rounds.push_back({round_, 0, false});
+  }
   if (state_.arrived && steps > 0 && until_arrival) record.rounds.back().arrived = true;
   for (std::int64_t i = 0;; ++i) {
     if (options.interrupt && i % kStepsBetweenInterrupts == 0 && options.interrupt()) return false;
     if (i == steps || (until_arrival && state_.arrived)) return true;
-    record.append(tick());
+    const StepRecord step = tick();
+    if (options.rounds_only) {
+      record.count(step);
+      continue;
+    }
+    record.append(step);
     if (options.echoes) {
       const std::vector<double> echoes = robot_.sonar(pose_);
       record.echoes.insert(record.echoes.end(), echoes.begin(), echoes.end());

@@ -161,16 +161,16 @@ void require_start(const World& world) {
 
 }  // namespace
 
-World::World(WorldDef def) : def_(std::move(def)) {
-  require_text("name", def_.name);
-  require_text("description", def_.description);
-  require_in("arena.width", def_.width, kLeastSide, kGreatestSide, "m");
-  require_in("arena.height", def_.height, kLeastSide, kGreatestSide, "m");
-  ObstacleCheck(def_).check_all();
+World::World(WorldDef def) : def_(std::make_shared<WorldDef>(std::move(def))) {
+  require_text("name", def_->name);
+  require_text("description", def_->description);
+  require_in("arena.width", def_->width, kLeastSide, kGreatestSide, "m");
+  require_in("arena.height", def_->height, kLeastSide, kGreatestSide, "m");
+  ObstacleCheck(*def_).check_all();
 
   std::vector<std::vector<Point>> outlines;
   std::vector<Circle> circles;
-  for (const Obstacle& obstacle : def_.obstacles) {
+  for (const Obstacle& obstacle : def_->obstacles) {
     if (const auto* circle = std::get_if<Circle>(&obstacle)) {
       circles.push_back(*circle);
     } else if (const auto* rectangle = std::get_if<Rectangle>(&obstacle)) {
@@ -179,22 +179,24 @@ World::World(WorldDef def) : def_(std::move(def)) {
       outlines.push_back(counter_clockwise(std::get<Polygon>(obstacle).corners));
     }
   }
-  surfaces_ =
-      std::make_shared<Surfaces>(def_.width, def_.height, std::move(outlines), std::move(circles));
+  surfaces_ = std::make_shared<Surfaces>(def_->width, def_->height, std::move(outlines),
+                                         std::move(circles));
 
   require_start(*this);
-  devlearn::require_place(*this, "target", def_.target);
+  devlearn::require_place(*this, "target", def_->target);
 }
 
 World World::with_start(const Pose& start) const {
+  WorldDef moved = *def_;
+  moved.start = start;
   World world = *this;
-  world.def_.start = start;
+  world.def_ = std::make_shared<WorldDef>(std::move(moved));
   require_start(world);
   return world;
 }
 
 double World::wall_distance(Point p) const noexcept {
-  return std::max(0.0, std::min({p.x, def_.width - p.x, p.y, def_.height - p.y}));
+  return std::max(0.0, std::min({p.x, def_->width - p.x, p.y, def_->height - p.y}));
 }
 
 double World::clearance(Point point, bool walls_count) const noexcept {

@@ -369,21 +369,22 @@ std::string World::to_json() const {
   const auto add = [&text](const char* key, const std::string& value) {
     text.append(",\n  \"").append(key).append("\": ").append(value);
   };
-  if (!def_.name.empty()) add("name", json(def_.name).dump());
-  if (!def_.description.empty()) add("description", json(def_.description).dump());
-  add("arena", R"({"width": )" + json_number(def_.width) + R"(, "height": )" +
-                   json_number(def_.height) + "}");
-  add("start", R"({"x": )" + json_number(def_.start.x) + R"(, "y": )" + json_number(def_.start.y) +
-                   R"(, "heading": )" + json_number(def_.start.heading) + "}");
+  if (!def_->name.empty()) add("name", json(def_->name).dump());
+  if (!def_->description.empty()) add("description", json(def_->description).dump());
+  add("arena", R"({"width": )" + json_number(def_->width) + R"(, "height": )" +
+                   json_number(def_->height) + "}");
+  add("start", R"({"x": )" + json_number(def_->start.x) + R"(, "y": )" +
+                   json_number(def_->start.y) + R"(, "heading": )" +
+                   json_number(def_->start.heading) + "}");
   add("target",
-      R"({"x": )" + json_number(def_.target.x) + R"(, "y": )" + json_number(def_.target.y) + "}");
+      R"({"x": )" + json_number(def_->target.x) + R"(, "y": )" + json_number(def_->target.y) + "}");
   std::string obstacles = "[";
   const char* separator = "\n    ";
-  for (const Obstacle& obstacle : def_.obstacles) {
+  for (const Obstacle& obstacle : def_->obstacles) {
     obstacles += separator + std::visit(ObstacleText{}, obstacle);
     separator = ",\n    ";
   }
-  add("obstacles", obstacles + (def_.obstacles.empty() ? "]" : "\n  ]"));
+  add("obstacles", obstacles + (def_->obstacles.empty() ? "]" : "\n  ]"));
   return text + "\n}\n";
 }
 

@@ -37,7 +37,8 @@ struct Round {
 };
 
 /// What happened, as columns of one value a step. The poses are one more a round: round i's are
-/// rows [first step + i, last step + i + 1], from where it began to where it ended.
+/// rows [first step + i, last step + i + 1], from where it began to where it ended. A record of
+/// rounds only (RunOptions::rounds_only) has no rows and no poses.
 struct Record {
   ///@{
   /// Of each step, as StepRecord says.
@@ -66,8 +67,12 @@ struct Record {
   /// Begins a round: its number and the pose it begins from. Where the last round has this number
   /// and ended at this pose, that one goes on.
   void begin_round(std::int32_t number, const Pose& pose);
+  /// Makes room for so many more steps.
+  void reserve(std::size_t more);
   /// Appends a step to the round begun last.
   void append(const StepRecord& step);
+  /// The same in `rounds` alone, as runs do that keep only rounds.
+  void count(const StepRecord& step) noexcept;
 
   /// Throws InvalidValue, naming the column, unless all are of the length that the rounds make and
   /// hold what a trial can write: rounds from 1, counts at least 0, known kinds and events.

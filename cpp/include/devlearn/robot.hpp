@@ -94,6 +94,7 @@ class Robot {
  private:
   struct Physics;
 
+  const Physics& physics() const;
   double steering_angle(int motion) const;
   double heading_after(const Pose& pose, int motion) const;
   double step_length() const noexcept;
@@ -104,7 +105,7 @@ class Robot {
 
   std::shared_ptr<const World> world_;
   RobotDef def_;
-  std::unique_ptr<Physics> physics_;
+  mutable std::unique_ptr<Physics> physics_;  // made when the sonars are first asked
 };
 
 }  // namespace devlearn

@@ -49,6 +49,9 @@ struct RunOptions {
   bool echoes = false;  ///< whether the sonars' echoes are recorded
   /// Called before a round's first step and every few steps; returning true ends the run there.
   std::function<bool()> interrupt;
+  /// Whether nothing but Record::rounds is recorded, so that memory does not grow with steps; not
+  /// together with echoes.
+  bool rounds_only = false;
 };
 
 /// The closed loop: world -> sense -> situation -> choice -> motion -> evaluation -> development
@@ -82,7 +85,7 @@ class Trial {
 
   ///@{
   /// The same, appended to a record: what is finished is kept there even where an agent throws.
-  /// Throws InvalidValue for one whose steps have echoes where these would not, or the reverse.
+  /// Throws InvalidValue for one that has steps or echoes where it now would not, or the reverse.
   void run(Record& record, std::int64_t steps, const RunOptions& options = {});
   void free_learning(Record& record, std::int64_t steps, const RunOptions& options = {});
   void path_learning(Record& record, std::int64_t rounds, std::int64_t step_limit,

@@ -58,6 +58,11 @@ class World {
  public:
   /// Throws InvalidValue, naming the field as a world file would (`obstacles[2].radius`).
   explicit World(WorldDef def = {});
+  ///@{
+  /// A copy costs nothing; there is no move, so that no world is ever empty.
+  World(const World&) = default;
+  World& operator=(const World&) = default;
+  ///@}
 
   /// The world in a file (the format is in docs/world-format.md and world.schema.json). Throws
   /// FileError, naming file and field.
@@ -70,7 +75,7 @@ class World {
   /// Writes to_json() to a file: to the side first, then renamed. Throws FileError.
   void save(const std::string& path) const;
 
-  const WorldDef& def() const noexcept { return def_; }  ///< as given
+  const WorldDef& def() const noexcept { return *def_; }  ///< as given
 
   /// The same world with another start. Throws InvalidValue.
   World with_start(const Pose& start) const;
@@ -108,8 +113,9 @@ class World {
   Surroundings around(Point point, double reach) const;
 
  private:
-  WorldDef def_;
-  std::shared_ptr<const Surfaces> surfaces_;  // copies share them
+  // Copies share them.
+  std::shared_ptr<const WorldDef> def_;
+  std::shared_ptr<const Surfaces> surfaces_;
 };
 
 }  // namespace devlearn

@@ -226,6 +226,32 @@ TEST_CASE("asking for echoes or for interrupts does not change the history") {
   CHECK(same(record, heard));
 }
 
+TEST_CASE("a run that keeps only rounds has the same history, and keeps the same rounds") {
+  const World world = shipped("paper");
+  Trial plain(world, {}, 5), brief(world, {}, 5);
+  RunOptions options;
+  options.rounds_only = true;
+  Record kept, rounds;
+  plain.free_learning(kept, 2000);
+  plain.path_learning(kept, 20, 300);
+  brief.free_learning(rounds, 2000, options);
+  brief.path_learning(rounds, 20, 300, options);
+  REQUIRE(rounds.rounds.size() == kept.rounds.size());
+  for (std::size_t i = 0; i < kept.rounds.size(); ++i) {
+    CHECK(rounds.rounds[i].round == kept.rounds[i].round);
+    CHECK(rounds.rounds[i].steps == kept.rounds[i].steps);
+    CHECK(rounds.rounds[i].arrived == kept.rounds[i].arrived);
+  }
+  CHECK(rounds.steps() == 0);
+  CHECK(rounds.x.empty());
+  CHECK(same(plain.run(500), brief.run(500)));
+
+  CHECK_THROWS_AS(plain.run(kept, 1, options), InvalidValue);
+  CHECK_THROWS_AS(plain.run(rounds, 1), InvalidValue);
+  options.echoes = true;
+  CHECK_THROWS_AS(plain.run(1, options), InvalidValue);
+}
+
 TEST_CASE("trials that take turns do not disturb each other") {
   Trial alone(shipped("paper"), {}, 11), one(shipped("paper"), {}, 11),
       other(shipped("clutter"), {}, 12);
