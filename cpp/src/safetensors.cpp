@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kLengthBytes = 8;
 constexpr std::size_t kLongestHeader = std::size_t{100} << 20;
+constexpr std::size_t kMostKeys = 1000;  // of an object
 constexpr std::size_t kChecksumDigits = 16;
 constexpr std::size_t kAlignment = 8;
 
@@ -109,6 +110,9 @@ class Reader {
     list('{', '}', [&] {
       const std::string key = string();
       if (!keys.insert(key).second) refuse("the key " + excerpt(key) + " again", "each key once");
+      if (keys.size() > kMostKeys) {
+        refuse("another key", "at most " + std::to_string(kMostKeys) + " keys");
+      }
       expect(':');
       member(key);
     });

@@ -77,7 +77,7 @@ class ParseGuard {
         text += (text.empty() ? "" : ".") + container.key;
       }
     }
-    return excerpt(text);
+    return text.empty() ? text : excerpt(text);
   }
   // The same where the value's first event has not come.
   std::string next_path() {

@@ -2,7 +2,10 @@
 # waits, locks or tells the time, and no memory but by operator new, which test_realtime.cpp counts.
 cmake_minimum_required(VERSION 3.22)
 set(parts choice evaluation learner math motor_memory random situation)
-set(forbidden "malloc|calloc|realloc|memalign|aligned_alloc|pthread_|mutex|__cxa_guard|futex|sem_|condition_variable|sleep|clock|time|_Znwm.*nothrow")
+set(forbidden "pthread_|mutex|condition_variable|__cxa_guard|nothrow"
+    "^(malloc|calloc|realloc|memalign|posix_memalign|aligned_alloc|mmap)$"
+    "^(time|clock|clock_gettime|gettimeofday|sleep|usleep|nanosleep|futex|sem_wait)$")
+string(REPLACE ";" "|" forbidden "${forbidden}")
 set(seen "")
 foreach(object IN LISTS OBJECTS)
   get_filename_component(part ${object} NAME)
@@ -11,9 +14,11 @@ foreach(object IN LISTS OBJECTS)
     continue()
   endif()
   list(APPEND seen ${part})
-  execute_process(COMMAND ${NM} --undefined-only ${object} OUTPUT_VARIABLE symbols
-                  COMMAND_ERROR_IS_FATAL ANY)
-  string(REGEX MATCHALL "[^\n ]*(${forbidden})[^\n ]*" found "${symbols}")
+  execute_process(COMMAND ${NM} --undefined-only --format=posix ${object}
+                  OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^ \n]+ U" found "${symbols}")
+  list(TRANSFORM found REPLACE " U" "")
+  list(FILTER found INCLUDE REGEX "${forbidden}")
   if(found)
     message(FATAL_ERROR "${object} refers to ${found}")
   endif()

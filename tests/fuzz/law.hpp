@@ -20,9 +20,9 @@ inline void require(bool holds, const char* law) {
   std::abort();
 }
 
-/// A refusal says what was expected, and does not repeat a whole file.
+/// A refusal says what was found and expected, and does not repeat a whole file.
 inline void require_fit(const FileError& error) {
-  require(!error.allowed().empty(), "a refusal says what is wrong");
+  require(!error.value().empty() && !error.allowed().empty(), "a refusal says what is wrong");
   require(std::string(error.what()).size() <= 2000, "a message is short");
 }
 

@@ -38,6 +38,13 @@ void* operator new(std::size_t size) { return allocate(size, alignof(std::max_al
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return allocate(size, static_cast<std::size_t>(alignment));
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
@@ -123,7 +130,7 @@ void step(Learner& learner, SituationId id, Random& random, Met* met = nullptr) 
   }
   if (met != nullptr) {
     met->events[static_cast<int>(development.event)] = true;
-    met->kinds[static_cast<int>(choice.kind)] = true;
+    if (choice.motion >= 0) met->kinds[static_cast<int>(choice.kind)] = true;
     met->reduced += development.reduced;
   }
 }

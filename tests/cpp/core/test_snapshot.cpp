@@ -153,6 +153,11 @@ TEST_CASE("a file that is none of ours is refused with what is wrong") {
   CHECK(with_header("{\"a\":{\"dtype\":\"F64\",\"shape\":[1],\"data_offsets\":[0,8]}}")
             .find("a.data_offsets") != std::string::npos);
   CHECK(with_header("{\"a\":{},\"a\":{}}") != "");
+  std::string keys = "{\"__metadata__\":{";
+  for (int i = 0; i <= 1000; ++i) keys += "\"" + std::to_string(i) + "\":\"\",";
+  CHECK(with_header(keys + "\"\":\"\"}}").find("at most 1000 keys") != std::string::npos);
+  // What it holds is not repeated at length.
+  CHECK(with_header("{\"" + std::string(50000, 'a') + "\":{}}").size() < 1000);
 }
 
 TEST_CASE("a state that breaks a law of the method is refused, naming it") {
