@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import datetime
+import importlib.util
 import json
 import math
 import os
@@ -25,7 +26,7 @@ BENCH = ROOT / "bench"
 RESULTS = BENCH / "results"
 
 # In how many passes each is measured, and for how long: [s] a benchmark, [s] a sweep of runs.
-MODES = {"full": (9, 0.3, 10.0), "quick": (3, 0.05, 2.0), "smoke": (1, 0.001, 0.0)}
+MODES = {"full": (9, 0.3, 10.0), "quick": (3, 0.05, 2.0), "smoke": (1, 0.0, 0.0)}
 NEEDLESS_FOR_HELP = ("numpy", "matplotlib", "devlearn._core", "multiprocessing")
 # Slower is what is worse by more than this and by three standard errors of the two medians.
 LEAST_SLOWDOWN = 1.02
@@ -67,17 +68,15 @@ class Tree:
             [self._programs / f"bench_{program}", *arguments], env={**os.environ, **environment}
         )
 
-    def has(self, program: str) -> bool:
-        """Whether a program was built."""
-        return (self._programs / f"bench_{program}").exists()
-
     def python(self, *arguments: str | Path) -> str:
         """What Python prints, with this tree's devlearn."""
         return output([*self._python, *arguments], env=self._environment)
 
     def benchmarks(self, seconds: float) -> Pass:
-        """Nanoseconds per step of every benchmark, each run for so long."""
-        text = self.run("all", "--benchmark_format=json", f"--benchmark_min_time={seconds}")
+        """Nanoseconds per step of every benchmark, each run for so long; once for no time."""
+        once = {} if seconds else {"DEVLEARN_BENCH_ITERATIONS": "1"}
+        arguments = ["--benchmark_format=json", f"--benchmark_min_time={seconds}"]
+        text = self.run("all", *arguments, **once)
         measured = {}
         for one in json.loads(text)["benchmarks"]:
             unit = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}[one["time_unit"]]
@@ -137,8 +136,6 @@ class Tree:
 
     def endurance(self, steps: int) -> Pass:
         """Resident memory at the end of a long run over that at its beginning."""
-        if not self.has("endurance"):
-            return {}
         return {"endurance/growth": json.loads(self.run("endurance", str(steps)))["growth"]}
 
     def latency(self, steps: int) -> list[dict[str, Any]]:
@@ -185,32 +182,33 @@ def _callgrind(command: Sequence[str | Path], **environment: str) -> tuple[int, 
 # --- building -------------------------------------------------------------------------------------
 
 
-def built(source: Path, commit: str) -> Tree:
-    """Builds a source tree, with the Python package beside."""
+def built(source: Path, commit: str, extension: Path | None = None) -> Tree:
+    """Builds a source tree; the extension, too, unless it is given."""
     folder = source / "build" / "bench" / "release"
     pybind = output([sys.executable, "-m", "pybind11", "--cmakedir"]).strip()
-    print(f"bench: building {commit} in {folder.relative_to(ROOT)}", flush=True)
+    print(f"bench: building {commit}", flush=True)
     output([
         "cmake", "-S", source, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-        "-DDEVLEARN_BENCH=ON", "-DDEVLEARN_PYTHON=ON", f"-Dpybind11_DIR={pybind}",
-        f"-DPython_EXECUTABLE={sys.executable}",
+        "-DDEVLEARN_BENCH=ON", f"-DDEVLEARN_PYTHON={'OFF' if extension else 'ON'}",
+        f"-Dpybind11_DIR={pybind}", f"-DPython_EXECUTABLE={sys.executable}",
     ])  # fmt: skip
     # An earlier library may lack what a newer benchmark needs; what is essential is checked below.
     jobs = os.environ.get("DEVLEARN_JOBS", str(os.cpu_count()))
     command = ["cmake", "--build", folder, "--parallel", jobs, "--", "-k", "0"]
     subprocess.run(command, capture_output=True, check=False)
+    crossing = next((folder / "bench").glob("bench_crossing*.so"), None)
+    extension = extension or next((folder / "python").rglob("_core*.so"), None)
+    if not crossing or not extension or not (folder / "bench" / "bench_all").exists():
+        sys.exit(f"bench: {commit} does not build; look with: cmake --build {folder}")
     site = folder / "site"
     shutil.rmtree(site, ignore_errors=True)
     shutil.copytree(
         source / "python" / "devlearn", site / "devlearn",
         ignore=shutil.ignore_patterns("__pycache__"),
     )  # fmt: skip
-    extensions = [*(folder / "python").rglob("_core*.so"), *folder.rglob("bench_crossing*.so")]
-    if len(extensions) != 2 or not (folder / "bench" / "bench_all").exists():
-        sys.exit(f"bench: {commit} does not build; look with: cmake --build {folder}")
-    shutil.copy(extensions[0], site / "devlearn")
-    shutil.copy(extensions[1], site)
-    subprocess.run([sys.executable, "-m", "compileall", "-q", site], check=True)
+    shutil.copy(extension, site / "devlearn")
+    shutil.copy(crossing, site)
+    output([sys.executable, "-m", "compileall", "-q", site])
     return Tree(commit, folder / "bench", site)
 
 
@@ -286,8 +284,8 @@ def measure(trees: Sequence[Tree], mode: str) -> list[dict[str, Any]]:
         print(f"bench: memory, latency and instructions of {tree.commit}", flush=True)
         exact = tree.memory()
         counted: Pass = {}
+        exact |= tree.endurance(10**8 if mode == "full" else 10**6)
         if mode == "full":
-            exact |= tree.endurance(10**8)
             exact |= tree.phase_instructions()
             counted = tree.instructions(COUNTED)
             counted["contact_share"] = passes[0]["contact_share"]
@@ -422,7 +420,9 @@ def main() -> None:
     if options.smoke:
         trees = [Tree(commit_of(), options.smoke / "bench", None)]
     else:
-        trees = [built(ROOT, commit_of())]
+        # scripts/setup has just built the extension.
+        found = importlib.util.find_spec("devlearn._core")
+        trees = [built(ROOT, commit_of(), Path(str(found.origin)) if found else None)]
     if options.against:
         trees.append(earlier(options.against))
 

@@ -1,0 +1,41 @@
+// One run of very many steps of which only summaries are kept: resident memory, sampled a hundred
+// times, at the end over that after the first hundredth.
+//
+//     endurance STEPS
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "bench.hpp"
+
+namespace {
+
+double resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  double size = 0.0, resident = 0.0;
+  statm >> size >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 2) return 2;
+  constexpr int kSamples = 100;
+  const long long steps = std::atoll(arguments[1]);
+  devlearn::Trial trial(devlearn::bench::paper(), {}, 1);
+  long long collisions = 0;
+  double first = 0.0, most = 0.0;
+  for (int sample = 0; sample < kSamples; ++sample) {
+    for (long long i = 0; i < steps / kSamples; ++i) collisions += trial.step().collided;
+    most = std::max(most, resident_bytes());
+    if (sample == 0) first = most;
+  }
+  std::printf(
+      "{\"steps\": %lld, \"collisions\": %lld, \"resident_bytes\": %.0f, \"growth\": %.4f}\n",
+      steps, collisions, most, most / first);
+}
