@@ -28,14 +28,15 @@ int main(int count, char** arguments) {
   constexpr int kSamples = 100;
   const long long steps = std::atoll(arguments[1]);
   devlearn::Trial trial(devlearn::bench::paper(), {}, 1);
-  long long collisions = 0;
+  devlearn::RunOptions options;
+  options.rounds_only = true;
+  devlearn::Record summaries;
   double first = 0.0, most = 0.0;
   for (int sample = 0; sample < kSamples; ++sample) {
-    for (long long i = 0; i < steps / kSamples; ++i) collisions += trial.step().collided;
+    trial.run(summaries, steps / kSamples, options);
     most = std::max(most, resident_bytes());
     if (sample == 0) first = most;
   }
-  std::printf(
-      "{\"steps\": %lld, \"collisions\": %lld, \"resident_bytes\": %.0f, \"growth\": %.4f}\n",
-      steps, collisions, most, most / first);
+  std::printf("{\"steps\": %lld, \"resident_bytes\": %.0f, \"growth\": %.4f}\n", steps, most,
+              most / first);
 }

@@ -102,6 +102,22 @@ FIGURES = {
     "share of contacts in a free learning": lambda m: m["contact_share"],
 }
 
+# Where the time of a step of the closed loop goes [ns, instructions], contacts by their share.
+STAGES = {
+    "choose and learn": lambda m: m["learner/replay"],
+    "move, clearance with it, where nothing is touched": lambda m: (
+        (1.0 - m["contact_share"]) * m["contact/free_step"]
+    ),
+    "move, clearance with it, where something is": lambda m: m["contact_share"] * m[CONTACT],
+    "situation, evaluation, record": lambda m: (
+        m[LOOP]
+        - m["learner/replay"]
+        - m["contact_share"] * m[CONTACT]
+        - (1.0 - m["contact_share"]) * m["contact/free_step"]
+    ),
+    "all": lambda m: m[LOOP],
+}
+
 # Whose instructions are counted: what the ratios above need, and the stages of a step.
 COUNTED = (
     FLOOR, Q, LOOP, CONTACT, "learner/replay", "contact/free_step", "contact/plain",

@@ -19,7 +19,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from items import COUNTED, FIGURES, FLOOR, ITEMS, value_of
+from items import COUNTED, FIGURES, FLOOR, ITEMS, STAGES, value_of
 
 ROOT = Path(__file__).resolve().parents[1]
 BENCH = ROOT / "bench"
@@ -136,6 +136,8 @@ class Tree:
 
     def endurance(self, steps: int) -> Pass:
         """Resident memory at the end of a long run over that at its beginning."""
+        if not (self._programs / "bench_endurance").exists():
+            return {}  # an earlier library cannot run so
         return {"endurance/growth": json.loads(self.run("endurance", str(steps)))["growth"]}
 
     def latency(self, steps: int) -> list[dict[str, Any]]:
@@ -296,6 +298,10 @@ def measure(trees: Sequence[Tree], mode: str) -> list[dict[str, Any]]:
             "machine": state,
             "items": judged(passes, exact, counted),
             "figures": {k: _finite(summarised(passes, exact, f)[0]) for k, f in FIGURES.items()},
+            "stages": {
+                k: [_finite(summarised(p, {}, f)[0]) for p in (passes, [counted])]
+                for k, f in STAGES.items()
+            },
             "latency_ns": tree.latency(10_000_000 if mode == "full" else 100_000),
             "exact": exact,
             "instructions": counted,
@@ -337,18 +343,22 @@ def table(results: Sequence[Mapping[str, Any]]) -> Iterator[str]:
     for i, row in enumerate(results[0]["items"]):
         verdict = {True: "pass", False: "FAIL", None: "not measured"}[row["holds"]]
         yield (
-            f"{row['group']:14} {row['what']:50} {row['sign']}{shown(row['bound']):>6} "
+            f"{row['group']:14} {row['what']:50} {row['sign']} {shown(row['bound']):>6} "
             + " ".join(f"{shown(r['items'][i]['value']):>12}" for r in results)
             + f" {100 * row['error']:4.1f}% {shown(row['by_instructions']):>9}  {verdict}"
         )
     for what in FIGURES:
         values = " ".join(f"{shown(r['figures'][what]):>12}" for r in results)
-        yield f"{'figures':14} {what:50} {'':>8} {values}"
+        yield f"{'figures':14} {what:50} {'':>9} {values}"
+    for stage in STAGES:
+        values = " ".join(f"{shown(r['stages'][stage][0]):>12}" for r in results)
+        counted = shown(results[0]["stages"][stage][1])
+        yield f"{'a step [ns]':14} {stage:50} {'':>9} {values} {'':>6} {counted:>9}"
     for i, row in enumerate(results[0]["latency_ns"]):
         for quantile in ("median", "p99.9", "worst"):
             what = f"{row['what']}, {quantile} of {row['steps']} [ns]"
             values = " ".join(f"{shown(r['latency_ns'][i][quantile]):>12}" for r in results)
-            yield f"{'latency':14} {what:50} {'':>8} {values}"
+            yield f"{'latency':14} {what:50} {'':>9} {values}"
 
 
 # --- comparing ------------------------------------------------------------------------------------

@@ -18,7 +18,9 @@ void free_learnings(benchmark::State& state, const World& world, bool echoes = f
   for (auto _ : state) {
     contacts = 0;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      state.PauseTiming();  // a trial is made once, however long it runs
       Trial trial(world, {}, seed);
+      state.ResumeTiming();
       const Record record = trial.free_learning(kSteps, options);
       contacts += std::count(record.collided.begin(), record.collided.end(), 1);
     }
