@@ -3,13 +3,14 @@
 #include <vector>
 
 #include "bench.hpp"
+#include "grown_worlds.hpp"
 
 namespace devlearn::bench {
 namespace {
 
 template <typename F>
-void over_steps(benchmark::State& state, F f) {
-  const Robot robot(paper(), {});
+void over_steps(benchmark::State& state, const World& world, F f) {
+  const Robot robot(world, {});
   const std::vector<Step> steps = steps_where(false);
   for (auto _ : state) {
     for (const Step& step : steps) benchmark::DoNotOptimize(f(robot, step));
@@ -18,13 +19,19 @@ void over_steps(benchmark::State& state, F f) {
 }
 
 const auto* const clearance = add("clearance/geometric", [](benchmark::State& state) {
-  over_steps(state, [](const Robot& robot, const Step& step) {
+  over_steps(state, paper(), [](const Robot& robot, const Step& step) {
     return robot.world().clearance({step.pose.x, step.pose.y});
   });
 });
 
 const auto* const free_step = add("clearance/free_step", [](benchmark::State& state) {
-  over_steps(state, [](const Robot& robot, const Step& step) {
+  over_steps(state, paper(), [](const Robot& robot, const Step& step) {
+    return robot.free_step(step.pose, step.motion);
+  });
+});
+
+const auto* const among_many = add("clearance/free_step_8000", [](benchmark::State& state) {
+  over_steps(state, shattered(), [](const Robot& robot, const Step& step) {
     return robot.free_step(step.pose, step.motion);
   });
 });

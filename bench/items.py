@@ -75,6 +75,8 @@ ITEMS = [
     Item("2 closed loop", "whole free learning / floor", "<=", 4.0, ratio(LOOP, FLOOR)),
     Item("2 closed loop", "whole experiment / floor", "<=", 4.0, ratio("trial/experiment", FLOOR)),
     Item("3 echoes", "five sonars recorded / (raycasts + closed loop)", "<=", 1.5, with_echoes),
+    Item("4 growth", "whether a step is free: 8000 / 8 obstacles, arena kept", "<=", 1.5,
+         ratio("clearance/free_step_8000", "clearance/free_step")),
     Item("4 growth", "8192 / 8 obstacles, arena grown", "<=", 1.5,
          ratio("trial/8192_obstacles_arena_grown", LOOP)),
     Item("4 growth", "8000 / 8 obstacles, arena kept", "<=", 1.5,

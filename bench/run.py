@@ -286,7 +286,7 @@ def measure(trees: Sequence[Tree], mode: str) -> list[dict[str, Any]]:
         print(f"bench: memory, latency and instructions of {tree.commit}", flush=True)
         exact = tree.memory()
         counted: Pass = {}
-        exact |= tree.endurance(10**8 if mode == "full" else 10**6)
+        exact |= tree.endurance({"full": 10**8, "quick": 10**7, "smoke": 10**6}[mode])
         if mode == "full":
             exact |= tree.phase_instructions()
             counted = tree.instructions(COUNTED)

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "bench.hpp"
 #include "box2d_world.hpp"
+#include "grown_worlds.hpp"
 
 namespace devlearn::bench {
 namespace {
@@ -88,69 +88,6 @@ const auto* const experiment = add("trial/experiment", [](benchmark::State& stat
 });
 
 // --- growth ------------------------------------------------------------------------------------
-
-Point moved(Point p, double x, double y) { return {p.x + x, p.y + y}; }
-Obstacle moved(Circle circle, double x, double y) {
-  circle.center = moved(circle.center, x, y);
-  return circle;
-}
-Obstacle moved(Rectangle rectangle, double x, double y) {
-  rectangle.center = moved(rectangle.center, x, y);
-  return rectangle;
-}
-Obstacle moved(Polygon polygon, double x, double y) {
-  for (Point& corner : polygon.corners) corner = moved(corner, x, y);
-  return polygon;
-}
-
-// The world `paper` side by side, 32 times along x and along y, without walls between; start and
-// target in the middle.
-World grown() {
-  constexpr int kTiles = 32;
-  const WorldDef tile = paper().def();
-  const double x = tile.width * (kTiles / 2), y = tile.height * (kTiles / 2);
-  WorldDef def = tile;
-  def.width *= kTiles;
-  def.height *= kTiles;
-  def.start.x += x;
-  def.start.y += y;
-  def.target = moved(def.target, x, y);
-  def.obstacles.clear();
-  for (int i = 0; i < kTiles; ++i) {
-    for (int j = 0; j < kTiles; ++j) {
-      for (const Obstacle& obstacle : tile.obstacles) {
-        def.obstacles.push_back(std::visit(
-            [&](const auto& shape) { return moved(shape, i * tile.width, j * tile.height); },
-            obstacle));
-      }
-    }
-  }
-  return World(std::move(def));
-}
-
-// The world `paper`, each obstacle made of a thousand circles that lie in it.
-World shattered() {
-  constexpr double kPiece = 0.015;
-  constexpr int kPieces = 1000;
-  WorldDef def = paper().def();
-  const std::vector<Obstacle> whole = std::move(def.obstacles);
-  def.obstacles.clear();
-  Random random(1, "pieces");
-  for (const Obstacle& obstacle : whole) {
-    WorldDef alone;
-    alone.start = {0.01, 0.01, 0.0};
-    alone.target = {4.99, 4.99};
-    alone.obstacles = {obstacle};
-    const World inside(alone);
-    for (int made = 0; made < kPieces;) {
-      const Point p{random.uniform() * def.width, random.uniform() * def.height};
-      if (inside.clearance(p) > 0.0) continue;
-      def.obstacles.push_back(Circle{p, kPiece});
-      ++made;
-    }
-  }
-  return World(std::move(def));
-}
 
 const auto* const arena_grown =
     add("trial/8192_obstacles_arena_grown",
