@@ -103,19 +103,21 @@ RecordObject as_record(const Trial& trial, Record&& record) {
 /// Runs `phase(trial, record, options)` without the GIL. Ctrl-C is looked for every 20 ms, between
 /// two steps; then, and where an agent raises, what is finished stays in `trial.interrupted`.
 template <typename Phase>
-RecordObject run_phase(py::object& self, bool echoes, const Phase& phase) {
+RecordObject run_phase(py::object& self, bool echoes, bool rounds_only, const Phase& phase) {
   auto& trial = self.cast<Trial&>();
   using Clock = std::chrono::steady_clock;
   constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
   Clock::time_point looked = Clock::now();
   bool stopped = false;
-  const RunOptions options{echoes, [&] {
+  const RunOptions options{echoes,
+                           [&] {
                              if (Clock::now() - looked < kBetweenLooks) return false;
                              const py::gil_scoped_acquire gil;
                              stopped = PyErr_CheckSignals() != 0;
                              looked = Clock::now();
                              return stopped;
-                           }};
+                           },
+                           rounds_only};
   Record record;
   try {
     const InRun in_run(trial.learner());
@@ -244,36 +246,39 @@ void bind_trial(py::module_& m) {
           "One tick of the loop.")
       .def(
           "run",
-          [](py::object& self, Whole<StepsTag> steps, bool echoes) {
-            return run_phase(self, echoes,
+          [](py::object& self, Whole<StepsTag> steps, bool echoes, bool rounds_only) {
+            return run_phase(self, echoes, rounds_only,
                              [&](Trial& trial, Record& record, const RunOptions& run) {
                                trial.run(record, steps.value, run);
                              });
           },
           py::arg("steps"), py::kw_only(), py::arg("echoes") = false,
+          py::arg("rounds_only") = false,
           "`steps` ticks from where the robot is, in the present round. `echoes` records the "
-          "sonars, too.")
+          "sonars, too. With `rounds_only` the record holds `rounds` and no steps or poses, and "
+          "memory does not grow with steps; not together with echoes.")
       .def(
           "free_learning",
-          [](py::object& self, Whole<StepsTag> steps, bool echoes) {
-            return run_phase(self, echoes,
+          [](py::object& self, Whole<StepsTag> steps, bool echoes, bool rounds_only) {
+            return run_phase(self, echoes, rounds_only,
                              [&](Trial& trial, Record& record, const RunOptions& run) {
                                trial.free_learning(record, steps.value, run);
                              });
           },
           py::arg("steps"), py::kw_only(), py::arg("echoes") = false,
+          py::arg("rounds_only") = false,
           "A new round of `steps` steps from the start pose; reaching the target ends nothing.")
       .def(
           "path_learning",
-          [](py::object& self, Whole<RoundsTag> rounds, Whole<StepLimitTag> step_limit,
-             bool echoes) {
-            return run_phase(self, echoes,
+          [](py::object& self, Whole<RoundsTag> rounds, Whole<StepLimitTag> step_limit, bool echoes,
+             bool rounds_only) {
+            return run_phase(self, echoes, rounds_only,
                              [&](Trial& trial, Record& record, const RunOptions& run) {
                                trial.path_learning(record, rounds.value, step_limit.value, run);
                              });
           },
           py::arg("rounds"), py::arg("step_limit") = 10000, py::kw_only(),
-          py::arg("echoes") = false,
+          py::arg("echoes") = false, py::arg("rounds_only") = false,
           "`rounds` new rounds from the start pose, each until the target is reached, or failed "
           "(arrived False) after `step_limit` steps.")
       .def("begin_round", &Trial::begin_round, py::call_guard<Turn>(),

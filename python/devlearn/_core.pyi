@@ -1076,7 +1076,7 @@ class Trial:
         Puts the robot at the start pose for a new round.
         """
     def free_learning(
-        self, steps: typing.SupportsIndex, *, echoes: bool = False
+        self, steps: typing.SupportsIndex, *, echoes: bool = False, rounds_only: bool = False
     ) -> devlearn.record.Record:
         """
         A new round of `steps` steps from the start pose; reaching the target ends nothing.
@@ -1087,6 +1087,7 @@ class Trial:
         step_limit: typing.SupportsIndex = 10000,
         *,
         echoes: bool = False,
+        rounds_only: bool = False,
     ) -> devlearn.record.Record:
         """
         `rounds` new rounds from the start pose, each until the target is reached, or failed (arrived False) after `step_limit` steps.
@@ -1100,9 +1101,11 @@ class Trial:
         """
         Puts the robot anywhere it fits [m, m, degrees] for a new round. Raises InvalidValue.
         """
-    def run(self, steps: typing.SupportsIndex, *, echoes: bool = False) -> devlearn.record.Record:
+    def run(
+        self, steps: typing.SupportsIndex, *, echoes: bool = False, rounds_only: bool = False
+    ) -> devlearn.record.Record:
         """
-        `steps` ticks from where the robot is, in the present round. `echoes` records the sonars, too.
+        `steps` ticks from where the robot is, in the present round. `echoes` records the sonars, too. With `rounds_only` the record holds `rounds` and no steps or poses, and memory does not grow with steps; not together with echoes.
         """
     def step(self) -> Step:
         """

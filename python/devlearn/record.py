@@ -70,6 +70,8 @@ class Record:
     ``echoes``                float64  after each step: (steps, sonars) [m], or None
     ========================  =======  ====================================================
 
+    A run with ``rounds_only`` leaves the step and pose columns empty; ``rounds`` tells the steps.
+
     ``provenance`` tells where it came from: version, commit, Box2D's version, world and its hash,
     configuration, seed and agent.
     """
@@ -159,9 +161,18 @@ class Record:
         """The configuration it happened under."""
         return _core.TrialConfig.from_dict(self.provenance["config"])
 
+    @property
+    def rounds_only(self) -> bool:
+        """Whether it holds rounds without their steps and poses."""
+        return _holds_rounds_only(self.rounds, self.x)
+
     def steps_of(self, i: int) -> slice:
-        """Where the steps of entry ``i`` of ``rounds`` stand in the step columns."""
+        """Where the steps of entry ``i`` of ``rounds`` stand in the step columns.
+
+        Raises InvalidValue for a record of rounds only.
+        """
         i = self._entry(i)
+        self._require_steps()
         start = int(self.rounds["steps"][:i].sum())
         return slice(start, start + int(self.rounds["steps"][i]))
 
@@ -170,6 +181,10 @@ class Record:
         steps = self.steps_of(i)
         poses = slice(steps.start + self._entry(i), steps.stop + self._entry(i) + 1)
         return np.column_stack([self.x[poses], self.y[poses], self.heading[poses]])
+
+    def _require_steps(self) -> None:
+        if self.rounds_only:
+            raise InvalidValue("record", "rounds only", "one that holds steps")
 
     def _entry(self, i: int) -> int:
         count = len(self.rounds)
@@ -220,8 +235,10 @@ class Record:
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write one row a step: the step columns, the pose after it, and the echoes if recorded.
 
-        Comment lines with ``#`` at the head give the provenance.
+        Comment lines with ``#`` at the head give the provenance. Raises InvalidValue for a record
+        of rounds only.
         """
+        self._require_steps()
         after = np.ones(len(self.x), dtype=bool)
         after[np.cumsum(self.rounds["steps"] + 1) - self.rounds["steps"] - 1] = False
         columns = {name: getattr(self, name) for name in STEP_COLUMNS}
@@ -299,6 +316,10 @@ def _umask() -> int:
     return current
 
 
+def _holds_rounds_only(rounds: npt.NDArray[np.void], x: npt.NDArray[np.float64]) -> bool:
+    return len(rounds) > 0 and len(x) == 0
+
+
 def _check(columns: Mapping[str, npt.NDArray[Any]]) -> None:
     names = (*STEP_COLUMNS, *POSE_COLUMNS, "rounds")
     for name in names:
@@ -316,10 +337,13 @@ def _check(columns: Mapping[str, npt.NDArray[Any]]) -> None:
         if rounds.dtype.fields is None or rounds.dtype.fields.get(field, (None,))[0] != dtype:
             raise InvalidValue("rounds", rounds.dtype, f"fields {', '.join(_ROUND_FIELDS)}")
     steps = len(columns["situation"])
+    rounds_only = _holds_rounds_only(rounds, columns["x"])
     each = rounds["steps"].ravel().tolist()  # whole numbers of Python, whose sum never wraps
-    if rounds.ndim != 1 or min(each, default=0) < 0 or sum(each) != steps:
+    told = 0 if rounds_only else sum(each)
+    if rounds.ndim != 1 or min(each, default=0) < 0 or told != steps:
         raise InvalidValue("rounds.steps", "another sum", f"{steps}, the number of steps")
-    expected = dict.fromkeys(STEP_COLUMNS, steps) | dict.fromkeys(POSE_COLUMNS, steps + len(rounds))
+    poses = 0 if rounds_only else steps + len(rounds)
+    expected = dict.fromkeys(STEP_COLUMNS, steps) | dict.fromkeys(POSE_COLUMNS, poses)
     for name, dtype in (STEP_COLUMNS | POSE_COLUMNS).items():
         column = columns[name]
         if column.dtype != dtype or column.shape != (expected[name],):

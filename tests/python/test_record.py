@@ -55,6 +55,24 @@ def test_columns_have_their_types_and_lengths(record):
         assert column.flags.c_contiguous
 
 
+def test_a_record_of_rounds_only_tells_the_same_rounds_and_holds_no_steps(paper, tmp_path):
+    def trial():
+        return Trial(paper, TrialConfig.step5(), seed=1)
+
+    kept = trial().path_learning(5, 200)
+    brief = trial().path_learning(5, 200, rounds_only=True)
+    assert brief.rounds_only
+    assert not kept.rounds_only
+    assert (brief.rounds == kept.rounds).all()
+    assert len(brief) == len(brief.x) == 0
+    brief.save(tmp_path / "brief.npz")
+    assert (Record.load(tmp_path / "brief.npz").rounds == kept.rounds).all()
+    for call in (lambda: brief.steps_of(0), lambda: brief.path(0), lambda: brief.to_csv("-")):
+        refused(call, "record")
+    refused(lambda: trial().run(1, echoes=True, rounds_only=True), "rounds_only")
+    refused(lambda: Record.concatenate([kept, brief]), "rounds.steps")
+
+
 def test_rounds_are_found_by_their_index_from_either_end(record):
     slices = [record.steps_of(i) for i in range(3)]
     assert [s.start for s in slices] == [0, *(s.stop for s in slices[:-1])]
