@@ -1,7 +1,6 @@
 #include "devlearn/error.hpp"
 
 #include <charconv>
-#include <cmath>
 #include <utility>
 
 namespace devlearn {
@@ -41,18 +40,14 @@ void refuse_outside(std::string_view quantity, double value, char left, double l
   throw InvalidValue(std::string(quantity), to_text(value), allowed);
 }
 
-void require_finite(std::string_view quantity, double value) {
-  if (!std::isfinite(value)) {
-    throw InvalidValue(std::string(quantity), to_text(value), "a finite number");
-  }
+void refuse_infinite(std::string_view quantity, double value) {
+  throw InvalidValue(std::string(quantity), to_text(value), "a finite number");
 }
 
-void require_count(std::string_view quantity, long long value, long long low, long long high) {
-  if (value < low || value > high) {
-    throw InvalidValue(
-        std::string(quantity), std::to_string(value),
-        "a whole number in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
-  }
+void refuse_count(std::string_view quantity, long long value, long long low, long long high) {
+  throw InvalidValue(
+      std::string(quantity), std::to_string(value),
+      "a whole number in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
 }
 
 }  // namespace devlearn

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <string>
 
@@ -11,20 +12,43 @@
 namespace devlearn {
 namespace {
 
-// The index is grown before more than 7/8 of its buckets are taken; longer runs of taken buckets
+// The index is grown before more than 4/5 of its buckets are taken; longer runs of taken buckets
 // would cost more than the memory they save.
+constexpr std::size_t kLeastBuckets = 20;
+
+std::size_t situations_for(std::size_t buckets) noexcept { return buckets / 5 * 4; }
+
 std::size_t buckets_for(std::size_t situations) noexcept {
-  std::size_t buckets = 16;
-  while (buckets / 8 * 7 < situations) buckets *= 2;
-  return buckets;
+  return std::max(kLeastBuckets, situations / 4 * 5 + 5);
 }
 
-// Spreads neighbouring ids over the whole index (the finaliser of SplitMix64).
+// Spreads neighbouring ids over all 64 bits.
 std::uint64_t scattered(SituationId situation) noexcept {
-  auto bits = static_cast<std::uint64_t>(situation);
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9U;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebU;
-  return bits ^ (bits >> 31);
+  auto bits = static_cast<std::uint64_t>(situation) * 0x9e3779b97f4a7c15U;
+  bits = (bits ^ (bits >> 32)) * 0xd6e8feb86659fd93U;
+  return bits ^ (bits >> 32);
+}
+
+// Where the search for a situation begins: the upper half of its hash, scaled to the buckets.
+std::size_t first_bucket(std::uint64_t hash, std::size_t buckets) noexcept {
+  return (hash >> 33) * buckets >> 31;
+}
+
+// A block: a situation's id, then its motor memory.
+SituationId id_in(const std::byte* block) noexcept {
+  SituationId id;
+  std::memcpy(&id, block, sizeof id);
+  return id;
+}
+
+MotorMemory memory_in(const std::byte* block, int motion_count) noexcept {
+  // The view serves reading and developing alike; const members only read through it.
+  return {const_cast<std::byte*>(block) + sizeof(SituationId), motion_count};
+}
+
+void begin_block(std::byte* block, SituationId situation, int motion_count) noexcept {
+  std::memcpy(block, &situation, sizeof situation);
+  memory_in(block, motion_count).clear();
 }
 
 void require_situation(SituationId situation) {
@@ -146,8 +170,10 @@ Learner::Learner(const LearnerConfig& config, std::uint64_t seed)
     : config_((config.validate(), config)),
       seed_(seed),
       random_(seed, "agent"),
-      buckets_(buckets_for(0), kAbsent),
-      bytes_per_situation_(MotorMemory::bytes(config.motion_count)) {}
+      curiosity_(config.c1, config.c2),
+      bytes_per_block_(sizeof(SituationId) + MotorMemory::bytes(config.motion_count)),
+      buckets_(kLeastBuckets, kAbsent),
+      last_block_(bytes_per_block_) {}
 
 Learner::Learner(const LearnerState& state) : Learner(state.config, state.seed) {
   require_laws(state);
@@ -174,6 +200,7 @@ Learner::Learner(const LearnerState& state) : Learner(state.config, state.seed) 
       throw InvalidValue("pending.situation", std::to_string(state.pending->situation),
                          "a situation that was experienced");
     }
+    pending_position_ = memory(pending_slot_).find(pending_choice_.motion);
   }
 }
 
@@ -184,7 +211,12 @@ Choice Learner::choose(SituationId situation) {
                        "learn() or cancel() between two choices");
   }
   const std::uint32_t slot = find_or_add(situation);
-  pending_choice_ = choose_motion(memory(slot), config_, random_);
+  const MotorMemory here = memory(slot);
+  const auto outcomes = static_cast<std::uint32_t>(outcome_count(here));
+  last_outcome_ = static_cast<int>(random_.index(outcomes));
+  std::copy_n(block(slot), bytes_per_block_, last_block_.data());
+  pending_position_ = choose_motion(here, last_outcome_, config_.sigma, curiosity_);
+  pending_choice_ = choice_at(here, pending_position_);
   pending_slot_ = slot;
   return pending_choice_;
 }
@@ -193,7 +225,7 @@ Development Learner::learn(double smf) {
   const std::uint32_t slot = require_pending("Learner.learn");
   require_finite("smf", smf);
   pending_slot_ = kAbsent;
-  return develop(slot, pending_choice_.motion, smf);
+  return develop(slot, pending_choice_.motion, pending_position_, smf);
 }
 
 Development Learner::learn(double smf, int motion) {
@@ -201,7 +233,7 @@ Development Learner::learn(double smf, int motion) {
   require_finite("smf", smf);
   require_count("motion", motion, 0, config_.motion_count - 1);
   pending_slot_ = kAbsent;
-  return develop(slot, motion, smf);
+  return develop(slot, motion, memory(slot).find(motion), smf);
 }
 
 void Learner::cancel() {
@@ -213,18 +245,21 @@ Development Learner::update(SituationId situation, int motion, double smf) {
   require_situation(situation);
   require_count("motion", motion, 0, config_.motion_count - 1);
   require_finite("smf", smf);
-  return develop(find_or_add(situation), motion, smf);
+  const std::uint32_t slot = find_or_add(situation);
+  const Development development = develop(slot, motion, memory(slot).find(motion), smf);
+  if (slot == pending_slot_) pending_position_ = memory(slot).find(pending_choice_.motion);
+  return development;
 }
 
 // Steps 4 and 5.
-Development Learner::develop(std::uint32_t slot, int motion, double smf) noexcept {
+Development Learner::develop(std::uint32_t slot, int motion, MotorMemory::Position position,
+                             double smf) noexcept {
   Development development;
-  development.situation = ids_[slot];
+  development.situation = id(slot);
   development.motion = motion;
 
   MotorMemory situation = memory(slot);
   const int effective_before = situation.effective_count();
-  const MotorMemory::Position position = situation.find(motion);
   const bool effective = smf >= 0.0;
 
   switch (position.list) {
@@ -245,11 +280,13 @@ Development Learner::develop(std::uint32_t slot, int motion, double smf) noexcep
         situation.abandon(position.index);
         development.event = Event::kAbandonment;
       } else {
-        // Below D = -1 Eq. 9 would leave [0, 1].
-        const double d = std::max(-1.0, 1.0 - exponential(-config_.eta * smf));
-        situation.orient(position.index, d);
         development.event = Event::kOrientation;
-        development.reduced = situation.reduce();
+        if (effective_before > 1) {  // a sole motion has nothing to change
+          // Below D = -1 Eq. 9 would leave [0, 1].
+          const double d = std::max(-1.0, 1.0 - exponential(-config_.eta * smf));
+          situation.orient(position.index, d);
+          development.reduced = situation.reduce();
+        }
       }
       break;
 
@@ -268,28 +305,53 @@ SituationMemory Learner::situation(SituationId situation) const {
   require_situation(situation);
   const std::uint32_t slot = find(situation);
   if (slot != kAbsent) return memory(slot).copy();
-  std::vector<std::byte> storage(bytes_per_situation_);
-  MotorMemory unexperienced(storage.data(), config_.motion_count);
-  unexperienced.clear();
-  return unexperienced.copy();
+  return memory_in(unexperienced(situation).data(), config_.motion_count).copy();
 }
 
-std::vector<SituationId> Learner::situations() const { return ids_; }
+std::vector<std::byte> Learner::unexperienced(SituationId situation) const {
+  std::vector<std::byte> block(bytes_per_block_);
+  begin_block(block.data(), situation, config_.motion_count);
+  return block;
+}
+
+std::vector<SituationId> Learner::situations() const {
+  std::vector<SituationId> ids(count_);
+  for (std::uint32_t slot = 0; slot < count_; ++slot) ids[slot] = id(slot);
+  return ids;
+}
+
+Explanation Learner::explain(SituationId situation) const {
+  require_situation(situation);
+  const std::uint32_t slot = find(situation);
+  if (slot != kAbsent) {
+    return devlearn::explain(situation, memory(slot), config_.sigma, curiosity_);
+  }
+  const std::vector<std::byte> block = unexperienced(situation);
+  return devlearn::explain(situation, memory_in(block.data(), config_.motion_count), config_.sigma,
+                           curiosity_);
+}
+
+std::optional<ChoiceTrace> Learner::last_choice() const {
+  if (last_outcome_ < 0) return std::nullopt;
+  const std::byte* const block = last_block_.data();
+  return trace(id_in(block), memory_in(block, config_.motion_count), last_outcome_, config_.sigma,
+               curiosity_);
+}
 
 LearnerState Learner::state() const {
   LearnerState state;
   state.config = config_;
   state.seed = seed_;
   state.random = random_.state();
-  if (pending_slot_ != kAbsent) state.pending = {ids_[pending_slot_], pending_choice_};
+  if (pending_slot_ != kAbsent) state.pending = {id(pending_slot_), pending_choice_};
   LearnerMemory& all = state.memory;
-  all.situation = ids_;
-  all.effective_count.reserve(ids_.size());
-  all.ineffective_count.reserve(ids_.size());
-  all.motions.reserve(ids_.size() * config_.motion_count);
+  all.situation = situations();
+  all.effective_count.reserve(count_);
+  all.ineffective_count.reserve(count_);
+  all.motions.reserve(count_ * config_.motion_count);
   all.orientation.reserve(static_cast<std::size_t>(effective_count_));
   all.times_learned.reserve(static_cast<std::size_t>(effective_count_));
-  for (std::uint32_t slot = 0; slot < ids_.size(); ++slot) {
+  for (std::uint32_t slot = 0; slot < count_; ++slot) {
     memory(slot).append_to(all.motions, all.orientation, all.times_learned);
     all.effective_count.push_back(static_cast<std::uint16_t>(memory(slot).effective_count()));
     all.ineffective_count.push_back(static_cast<std::uint16_t>(memory(slot).ineffective_count()));
@@ -302,7 +364,7 @@ std::optional<Choice> Learner::pending() const noexcept {
   return pending_choice_;
 }
 
-const std::uint32_t& Learner::require_pending(const char* call) const {
+std::uint32_t Learner::require_pending(const char* call) const {
   if (pending_slot_ == kAbsent) {
     throw InvalidValue(call, "no choice that waits for its outcome", "a choose() before it");
   }
@@ -311,17 +373,22 @@ const std::uint32_t& Learner::require_pending(const char* call) const {
 
 // --- the situations experienced ----------------------------------------------------------------
 
+const std::byte* Learner::block(std::uint32_t slot) const noexcept {
+  return blocks_.data() + slot * bytes_per_block_;
+}
+
+SituationId Learner::id(std::uint32_t slot) const noexcept { return id_in(block(slot)); }
+
 MotorMemory Learner::memory(std::uint32_t slot) const noexcept {
-  // The view serves reading and developing alike; const members only read through it.
-  auto* const bytes = const_cast<std::byte*>(blocks_.data());
-  return {bytes + slot * bytes_per_situation_, config_.motion_count};
+  return memory_in(block(slot), config_.motion_count);
 }
 
 std::uint32_t Learner::find(SituationId situation) const noexcept {
-  const std::size_t mask = buckets_.size() - 1;
-  for (std::size_t bucket = scattered(situation) & mask;; bucket = (bucket + 1) & mask) {
+  const std::size_t size = buckets_.size();
+  for (std::size_t bucket = first_bucket(scattered(situation), size);;) {
     const std::uint32_t slot = buckets_[bucket];
-    if (slot == kAbsent || ids_[slot] == situation) return slot;
+    if (slot == kAbsent || id(slot) == situation) return slot;
+    if (++bucket == size) bucket = 0;
   }
 }
 
@@ -330,16 +397,15 @@ std::uint32_t Learner::find_or_add(SituationId situation) {
   if (found != kAbsent) return found;
 
   // Everything that may fail comes first, so that a failed allocation changes nothing.
-  const std::size_t count = ids_.size() + 1;
-  if (count > ids_.capacity() || count * bytes_per_situation_ > blocks_.capacity() ||
-      buckets_for(count) > buckets_.size()) {
-    reserve(std::max(count, std::min<std::size_t>(ids_.size() * 2, kAbsent - 1)));
+  const std::size_t count = count_ + 1;
+  if (count * bytes_per_block_ > blocks_.capacity() || count > situations_for(buckets_.size())) {
+    reserve(std::max(count, std::min<std::size_t>(count_ + count_ / 2 + 8, kAbsent - 1)));
   }
-  const auto slot = static_cast<std::uint32_t>(ids_.size());
-  ids_.push_back(situation);
-  blocks_.resize(blocks_.size() + bytes_per_situation_);
-  memory(slot).clear();
+  const auto slot = static_cast<std::uint32_t>(count_);
+  blocks_.resize(count * bytes_per_block_);
+  begin_block(blocks_.data() + slot * bytes_per_block_, situation, config_.motion_count);
   index_into(buckets_, slot);
+  count_ = count;
   return slot;
 }
 
@@ -347,22 +413,28 @@ void Learner::reserve(std::size_t situations) {
   if (situations >= kAbsent) {
     throw InvalidValue("situations", std::to_string(situations), "at most 4294967294");
   }
-  ids_.reserve(situations);
-  blocks_.reserve(situations * bytes_per_situation_);
-  if (const std::size_t size = buckets_for(situations); size > buckets_.size()) {
-    std::vector<std::uint32_t> buckets(size, kAbsent);
-    for (std::size_t slot = 0; slot < ids_.size(); ++slot) {
-      index_into(buckets, static_cast<std::uint32_t>(slot));
-    }
+  blocks_.reserve(situations * bytes_per_block_);
+  if (situations > situations_for(buckets_.size())) {
+    std::vector<std::uint32_t> buckets(buckets_for(situations), kAbsent);
+    for (std::uint32_t slot = 0; slot < count_; ++slot) index_into(buckets, slot);
     buckets_ = std::move(buckets);
   }
 }
 
 void Learner::index_into(std::vector<std::uint32_t>& buckets, std::uint32_t slot) const noexcept {
-  const std::size_t mask = buckets.size() - 1;
-  std::size_t bucket = scattered(ids_[slot]) & mask;
-  while (buckets[bucket] != kAbsent) bucket = (bucket + 1) & mask;
+  const std::size_t size = buckets.size();
+  std::size_t bucket = first_bucket(scattered(id(slot)), size);
+  while (buckets[bucket] != kAbsent) {
+    if (++bucket == size) bucket = 0;
+  }
   buckets[bucket] = slot;
+}
+
+MemoryUse Learner::memory_use() const noexcept {
+  const std::size_t per_bucket = sizeof buckets_[0];
+  const std::size_t index = std::min(buckets_.size(), buckets_for(count_)) * per_bucket;
+  const std::size_t used = blocks_.size() + index;
+  return {used, blocks_.capacity() + buckets_.size() * per_bucket - used};
 }
 
 }  // namespace devlearn

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -59,9 +60,20 @@ inline void require_above(std::string_view quantity, double value, double low, d
                           std::string_view unit = "") {
   if (!(value > low && value <= high)) refuse_outside(quantity, value, '(', low, high, ']', unit);
 }
+[[noreturn]] void refuse_infinite(std::string_view quantity, double value);
+
 /// Throws InvalidValue unless `value` is neither infinite nor NaN.
-void require_finite(std::string_view quantity, double value);
+inline void require_finite(std::string_view quantity, double value) {
+  if (!std::isfinite(value)) refuse_infinite(quantity, value);
+}
+
+[[noreturn]] void refuse_count(std::string_view quantity, long long value, long long low,
+                               long long high);
+
 /// Throws InvalidValue unless the whole number lies in [low, high].
-void require_count(std::string_view quantity, long long value, long long low, long long high);
+inline void require_count(std::string_view quantity, long long value, long long low,
+                          long long high) {
+  if (value < low || value > high) refuse_count(quantity, value, low, high);
+}
 
 }  // namespace devlearn

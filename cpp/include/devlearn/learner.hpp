@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "devlearn/choice.hpp"
+#include "devlearn/explanation.hpp"
 #include "devlearn/motor_memory.hpp"
 #include "devlearn/random.hpp"
 #include "devlearn/situation.hpp"
@@ -82,6 +83,12 @@ struct PendingChoice {
   Choice choice;
 };
 
+/// Memory in bytes.
+struct MemoryUse {
+  std::size_t used = 0;   ///< by the situations experienced, their index included
+  std::size_t spare = 0;  ///< held for more of them: reserved, or left over by growth
+};
+
 /// Everything that a learner goes on from.
 struct LearnerState {
   LearnerConfig config;
@@ -153,13 +160,22 @@ class Learner {
   /// Everything it would go on from, as copies.
   LearnerState state() const;
 
+  /// Why motions are chosen in a situation as it is now; changes nothing. Throws InvalidValue for a
+  /// negative situation.
+  Explanation explain(SituationId situation) const;
+
+  /// Why the last choice came out as it did, learned from or not; nothing before the first one
+  /// since the learner was made or loaded.
+  std::optional<ChoiceTrace> last_choice() const;
+
   /// Makes room for `situations` in all, so that up to then nothing is allocated. Throws
   /// InvalidValue for more than 2^32 - 2, std::bad_alloc where memory does not suffice.
   void reserve(std::size_t situations);
 
   std::int64_t explored_count() const noexcept { return explored_count_; }    ///< NUM_RM
   std::int64_t effective_count() const noexcept { return effective_count_; }  ///< NUM_M
-  std::size_t situations_experienced() const noexcept { return ids_.size(); }
+  std::size_t situations_experienced() const noexcept { return count_; }
+  MemoryUse memory_use() const noexcept;
 
   const LearnerConfig& config() const noexcept { return config_; }
   std::uint64_t seed() const noexcept { return seed_; }
@@ -169,26 +185,36 @@ class Learner {
  private:
   static constexpr std::uint32_t kAbsent = 0xffffffffU;
 
+  const std::byte* block(std::uint32_t slot) const noexcept;
+  SituationId id(std::uint32_t slot) const noexcept;
+  MotorMemory memory(std::uint32_t slot) const noexcept;
+  std::vector<std::byte> unexperienced(SituationId situation) const;
   std::uint32_t find(SituationId situation) const noexcept;
   std::uint32_t find_or_add(SituationId situation);
   void index_into(std::vector<std::uint32_t>& buckets, std::uint32_t slot) const noexcept;
-  MotorMemory memory(std::uint32_t slot) const noexcept;
-  Development develop(std::uint32_t slot, int motion, double smf) noexcept;
-  const std::uint32_t& require_pending(const char* call) const;
+  Development develop(std::uint32_t slot, int motion, MotorMemory::Position position,
+                      double smf) noexcept;
+  std::uint32_t require_pending(const char* call) const;
 
   LearnerConfig config_;
   std::uint64_t seed_;
   Random random_;
+  Curiosity curiosity_;
 
-  // Situations in order of first experience: ids_[slot], and bytes_per_situation_ of blocks_ each,
-  // seen through MotorMemory. buckets_ is an open-addressing index from id to slot.
-  std::vector<SituationId> ids_;
+  // Situations in order of first experience, a block each: its id, then what MotorMemory views.
+  // buckets_ is an open-addressing index from id to slot, the block's number.
+  std::size_t bytes_per_block_;
+  std::size_t count_ = 0;
   std::vector<std::byte> blocks_;
   std::vector<std::uint32_t> buckets_;
-  std::size_t bytes_per_situation_;
 
   std::uint32_t pending_slot_ = kAbsent;
   Choice pending_choice_;
+  MotorMemory::Position pending_position_{};  // where its motion stands
+  // The last choice: the block as it was, and what was drawn.
+  std::vector<std::byte> last_block_;
+  int last_outcome_ = -1;
+
   std::int64_t explored_count_ = 0;
   std::int64_t effective_count_ = 0;
 };

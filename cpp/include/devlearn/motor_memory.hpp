@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace devlearn {
@@ -26,16 +27,22 @@ class MotorMemory {
   /// Bytes that one situation needs, a multiple of 8.
   static std::size_t bytes(int motion_count) noexcept;
 
-  /// Views `storage`, which is aligned to 8 bytes.
-  MotorMemory(void* storage, int motion_count) noexcept;
+  /// Views `storage`, which is aligned to 8 bytes: the sizes of two lists, N orientations, N
+  /// counts, N motions.
+  MotorMemory(void* storage, int motion_count) noexcept
+      : sizes_(static_cast<std::uint16_t*>(storage)),
+        orientation_(reinterpret_cast<double*>(static_cast<std::byte*>(storage) + kSizesBytes)),
+        times_learned_(reinterpret_cast<std::uint32_t*>(orientation_ + motion_count)),
+        motions_(reinterpret_cast<std::uint16_t*>(times_learned_ + motion_count)),
+        motion_count_(motion_count) {}
 
   /// Makes the storage a situation never experienced: every motion unexplored.
   void clear() noexcept;
 
   int motion_count() const noexcept { return motion_count_; }
-  int effective_count() const noexcept { return *effective_count_; }      ///< n_i
-  int ineffective_count() const noexcept { return *ineffective_count_; }  ///< n-bar_i
-  int unexplored_count() const noexcept {                                 ///< n_R
+  int effective_count() const noexcept { return sizes_[0]; }    ///< n_i
+  int ineffective_count() const noexcept { return sizes_[1]; }  ///< n-bar_i
+  int unexplored_count() const noexcept {                       ///< n_R
     return motion_count_ - effective_count() - ineffective_count();
   }
 
@@ -53,29 +60,85 @@ class MotorMemory {
     List list;
     int index;
   };
-  Position find(int motion) const noexcept;
+  Position find(int motion) const noexcept {
+    int place = 0;
+    for (int i = 1; i < motion_count_; ++i) place = motions_[i] == motion ? i : place;
+    if (place < effective_count()) return {List::kEffective, place};
+    place -= effective_count();
+    if (place < ineffective_count()) return {List::kIneffective, place};
+    return {List::kUnexplored, place - ineffective_count()};
+  }
 
   /// Extension development, Eq. 10-13: the motion at `from` (unexplored, or ineffective when it is
   /// retried) becomes the last of M_i with orientation 1/(n+1); the others shrink by n/(n+1).
-  void extend(Position from) noexcept;
+  void extend(Position from) noexcept {
+    const int n = effective_count();
+    int place = n + from.index;
+    if (from.list == List::kUnexplored) {
+      place += ineffective_count();
+    } else {
+      --sizes_[1];
+    }
+    // Eq. 10: M_i = [M_i, m].
+    move_motion(place, n);
+    // Eq. 11
+    const double shrunk = static_cast<double>(n) / (n + 1);
+    for (int j = 0; j < n; ++j) orientation_[j] *= shrunk;
+    orientation_[n] = 1.0 / (n + 1);
+    // Eq. 12: curiosity follows from the count.
+    times_learned_[n] = 1;
+    // Eq. 13
+    ++sizes_[0];
+  }
 
   /// An explored motion proved ineffective: from RM_i to the end of M-bar_i.
-  void reject(int unexplored_index) noexcept;
+  void reject(int unexplored_index) noexcept {
+    const int tried = effective_count() + ineffective_count();
+    move_motion(tried + unexplored_index, tried);
+    ++sizes_[1];
+  }
 
   /// Counts one more learning of effective motion k (n_ik).
-  void count_learning(int k) noexcept;
+  void count_learning(int k) noexcept {
+    if (times_learned_[k] < std::numeric_limits<std::uint32_t>::max()) ++times_learned_[k];
+  }
 
   /// Eq. 9 for effective motion k with D = 1 - exp(-eta SMF), -1 <= D < 1. A sole motion keeps its
   /// orientation 1 (at D = -1 the formula would be 0/0).
-  void orient(int k, double d) noexcept;
+  void orient(int k, double d) noexcept {
+    if (effective_count() == 1) return;
+    // The 1 of Eq. 9 is the sum of the orientations; taking the sum itself keeps rounding errors
+    // from piling up, for D < 0 multiplies them.
+    const double sum = orientation_sum();
+    const double chosen = orientation_[k];
+    const double change = chosen * d;
+    divide_orientations(sum + change);
+    orientation_[k] = (chosen + change) / (sum + change);
+  }
 
   /// Reduction development, Eq. 14-17: every motion whose orientation lies below 1/(3 n_i) moves
   /// to M-bar_i, the rest is renormalised and keeps its order. Returns how many moved.
-  int reduce() noexcept;
+  int reduce() noexcept {
+    const int before = effective_count();
+    const double threshold = 1.0 / (3.0 * before);
+    for (int j = 0; j < effective_count();) {
+      if (orientation_[j] < threshold) {
+        remove_effective(j);
+      } else {
+        ++j;
+      }
+    }
+    const int reduced = before - effective_count();
+    if (reduced > 0) divide_orientations(orientation_sum());
+    return reduced;
+  }
 
   /// Effective motion k moves to M-bar_i whatever its orientation; the rest is renormalised as in
-  /// Eq. 14.
-  void abandon(int k) noexcept;
+  /// Eq. 14, whose 1 - o_ib is the sum of what remains.
+  void abandon(int k) noexcept {
+    remove_effective(k);
+    divide_orientations(orientation_sum());
+  }
 
   SituationMemory copy() const;
 
@@ -88,14 +151,44 @@ class MotorMemory {
                  std::vector<std::uint32_t>& times_learned) const;
 
  private:
-  void remove_effective(int k) noexcept;
-  void renormalise() noexcept;
+  static constexpr std::size_t kSizesBytes = 8;  // two of 2 bytes, and room that aligns the rest
 
+  // What stands between moves up or down by one.
+  void move_motion(int from, int to) noexcept {
+    const std::uint16_t motion = motions_[from];
+    for (; from > to; --from) motions_[from] = motions_[from - 1];
+    for (; from < to; ++from) motions_[from] = motions_[from + 1];
+    motions_[to] = motion;
+  }
+
+  // Eq. 15-17: motion k leaves M_i for the end of M-bar_i; the motions after it move up, each with
+  // its own orientation and count.
+  void remove_effective(int k) noexcept {
+    const int n = effective_count();
+    move_motion(k, n + ineffective_count() - 1);
+    for (int j = k + 1; j < n; ++j) {
+      orientation_[j - 1] = orientation_[j];
+      times_learned_[j - 1] = times_learned_[j];
+    }
+    --sizes_[0];
+    ++sizes_[1];
+  }
+
+  // Added in order: a vectorised sum would depend on the machine.
+  double orientation_sum() const noexcept {
+    double sum = 0.0;
+    for (int j = 0; j < effective_count(); ++j) sum += orientation_[j];
+    return sum;
+  }
+
+  void divide_orientations(double divisor) noexcept {
+    for (int j = 0; j < effective_count(); ++j) orientation_[j] /= divisor;
+  }
+
+  std::uint16_t* sizes_;
   double* orientation_;
   std::uint32_t* times_learned_;
   std::uint16_t* motions_;
-  std::uint16_t* effective_count_;
-  std::uint16_t* ineffective_count_;
   int motion_count_;
 };
 

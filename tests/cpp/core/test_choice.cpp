@@ -35,6 +35,23 @@ struct Situation {
   MotorMemory memory;
 };
 
+// Draws, and says what that means.
+class Chooser {
+ public:
+  explicit Chooser(const LearnerConfig& config)
+      : sigma_(config.sigma), curiosity_(config.c1, config.c2) {}
+
+  Choice operator()(const MotorMemory& memory, Random& random) const {
+    const auto count = static_cast<std::uint32_t>(outcome_count(memory));
+    const auto outcome = static_cast<int>(random.index(count));
+    return choice_at(memory, choose_motion(memory, outcome, sigma_, curiosity_));
+  }
+
+ private:
+  double sigma_;
+  Curiosity curiosity_;
+};
+
 // --- frequencies ---
 
 constexpr int kChoices = 1000000;
@@ -121,12 +138,13 @@ TEST_CASE("Eq. 7: orientation and the one active curiosity add up as worked out 
   };
   const auto winners = [&](double sigma) {
     config.sigma = sigma;
+    const Chooser chosen(config);
     Random twin = random;
     // The winner by the motion whose curiosity is drawn, as often as not.
     std::vector<int> winner(2, -1);
     for (int i = 0; i < 50; ++i) {
       const std::uint32_t curious = twin.index(2);
-      const Choice choice = choose_motion(memory, config, random);
+      const Choice choice = chosen(memory, random);
       REQUIRE(choice.kind == Kind::kExploit);
       if (winner[curious] >= 0) REQUIRE(winner[curious] == choice.motion);
       winner[curious] = choice.motion;
@@ -151,6 +169,7 @@ TEST_CASE("Eq. 7: orientation and the one active curiosity add up as worked out 
 TEST_CASE("Eq. 7: the first in M_i wins among equals") {
   LearnerConfig config;
   config.c1 = 1e6;  // no curiosity is left after the second learning
+  const Chooser chosen(config);
   Random random(21, "agent");
   std::vector<std::uint64_t> storage(MotorMemory::bytes(5) / 8);
   MotorMemory memory(storage.data(), 5);
@@ -158,15 +177,15 @@ TEST_CASE("Eq. 7: the first in M_i wins among equals") {
   for (const int motion : {3, 1, 4, 0}) memory.extend(memory.find(motion));
   for (int k = 0; k < 4; ++k) memory.count_learning(k);
   memory.reject(0);
-  for (int i = 0; i < 1000; ++i) REQUIRE(choose_motion(memory, config, random).motion == 3);
+  for (int i = 0; i < 1000; ++i) REQUIRE(chosen(memory, random).motion == 3);
 }
 
 TEST_CASE("Eq. 7: a choice takes one draw among the unexplored, then the effective motions") {
-  const LearnerConfig config;
+  const Chooser chosen{LearnerConfig{}};
   Random random(22, "agent"), twin = random;
   const Situation situation({2, 1, 3});
   for (int i = 0; i < 10000; ++i) {
-    const Choice choice = choose_motion(situation.memory, config, random);
+    const Choice choice = chosen(situation.memory, random);
     const int drawn = static_cast<int>(twin.index(5));
     // Unexplored are 3, 4, 5; both effective motions are learned once, so that curiosity wins.
     REQUIRE(choice.kind == (drawn < 3 ? Kind::kExplore : Kind::kExploit));
@@ -174,14 +193,14 @@ TEST_CASE("Eq. 7: a choice takes one draw among the unexplored, then the effecti
   }
   const Situation exhausted({0, 5, 0});
   for (int i = 0; i < 10000; ++i) {
-    const Choice choice = choose_motion(exhausted.memory, config, random);
+    const Choice choice = chosen(exhausted.memory, random);
     REQUIRE(choice.kind == Kind::kExhausted);
     REQUIRE(choice.motion == static_cast<int>(twin.index(5)));
   }
 }
 
 TEST_CASE("exploring has probability n_R/(n + n_R); a mutant off by 2 % is found out") {
-  const LearnerConfig config;
+  const Chooser chosen{LearnerConfig{}};
   std::uint64_t seed = 30;
   for (const Lists& lists :
        std::vector<Lists>{{1, 0, 4}, {2, 0, 3}, {3, 0, 2}, {4, 0, 1}, {1, 3, 1}, {2, 4, 3}}) {
@@ -191,7 +210,7 @@ TEST_CASE("exploring has probability n_R/(n + n_R); a mutant off by 2 % is found
     Random random(seed++, "agent");
     std::vector<int> counts(2);
     for (int i = 0; i < kChoices; ++i) {
-      ++counts[choose_motion(situation.memory, config, random).kind == Kind::kExplore ? 0 : 1];
+      ++counts[chosen(situation.memory, random).kind == Kind::kExplore ? 0 : 1];
     }
     const double share =
         static_cast<double>(lists.unexplored) / (lists.effective + lists.unexplored);
@@ -200,18 +219,18 @@ TEST_CASE("exploring has probability n_R/(n + n_R); a mutant off by 2 % is found
 }
 
 TEST_CASE("a situation with nothing effective explores, one with nothing unexplored exploits") {
-  const LearnerConfig config;
+  const Chooser chosen{LearnerConfig{}};
   Random random(40, "agent");
   const Situation fresh({0, 0, 5}), half({0, 3, 2}), known({3, 2, 0});
   for (int i = 0; i < 10000; ++i) {
-    REQUIRE(choose_motion(fresh.memory, config, random).kind == Kind::kExplore);
-    REQUIRE(choose_motion(half.memory, config, random).kind == Kind::kExplore);
-    REQUIRE(choose_motion(known.memory, config, random).kind == Kind::kExploit);
+    REQUIRE(chosen(fresh.memory, random).kind == Kind::kExplore);
+    REQUIRE(chosen(half.memory, random).kind == Kind::kExplore);
+    REQUIRE(chosen(known.memory, random).kind == Kind::kExploit);
   }
 }
 
 TEST_CASE("the motion explored is uniform within RM_i; a mutant off by 2 % is found out") {
-  const LearnerConfig config;
+  const Chooser chosen{LearnerConfig{}};
   std::uint64_t seed = 50;
   for (const Lists& lists :
        std::vector<Lists>{{0, 0, 5}, {0, 2, 3}, {2, 1, 2}, {1, 1, 4}, {0, 0, 9}}) {
@@ -221,7 +240,7 @@ TEST_CASE("the motion explored is uniform within RM_i; a mutant off by 2 % is fo
     Random random(seed++, "agent");
     std::vector<int> counts(lists.unexplored);
     for (int explored = 0; explored < kChoices;) {
-      const Choice choice = choose_motion(situation.memory, config, random);
+      const Choice choice = chosen(situation.memory, random);
       if (choice.kind != Kind::kExplore) continue;
       ++counts[choice.motion - lists.effective - lists.ineffective];
       ++explored;
@@ -233,7 +252,7 @@ TEST_CASE("the motion explored is uniform within RM_i; a mutant off by 2 % is fo
 TEST_CASE("the motion whose curiosity is drawn is uniform; a mutant off by 2 % is found out") {
   // Every motion is learned once, so that an active curiosity adds 0.7/2, more than the 0.3 that
   // orientations can differ by: the winner is the one that was drawn.
-  const LearnerConfig config;
+  const Chooser chosen{LearnerConfig{}};
   std::uint64_t seed = 60;
   for (const Lists& lists :
        std::vector<Lists>{{2, 3, 0}, {5, 0, 0}, {3, 1, 1}, {2, 0, 3}, {9, 0, 0}}) {
@@ -244,7 +263,7 @@ TEST_CASE("the motion whose curiosity is drawn is uniform; a mutant off by 2 % i
     Random random(seed++, "agent");
     std::vector<int> counts(lists.effective);
     for (int exploited = 0; exploited < kChoices;) {
-      const Choice choice = choose_motion(situation.memory, config, random);
+      const Choice choice = chosen(situation.memory, random);
       if (choice.kind != Kind::kExploit) continue;
       ++counts[choice.motion];
       ++exploited;
@@ -255,12 +274,12 @@ TEST_CASE("the motion whose curiosity is drawn is uniform; a mutant off by 2 % i
 
 TEST_CASE(
     "the motion of an exhausted situation is uniform in M; a mutant off by 2 % is found out") {
-  const LearnerConfig config;
+  const Chooser chosen{LearnerConfig{}};
   const Situation situation({0, 5, 0});
   Random random(70, "agent");
   std::vector<int> counts(5);
   for (int i = 0; i < kChoices; ++i) {
-    ++counts[choose_motion(situation.memory, config, random).motion];
+    ++counts[chosen(situation.memory, random).motion];
   }
   check_uniform(counts);
 }

@@ -1,0 +1,107 @@
+#include "devlearn/explanation.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace devlearn {
+namespace {
+
+const char* name_of(Kind kind) {
+  switch (kind) {
+    case Kind::kExplore:
+      return "explored";
+    case Kind::kExploit:
+      return "exploited";
+    case Kind::kExhausted:
+      return "drawn from all, for none is effective";
+    default:
+      return "chosen";
+  }
+}
+
+template <typename... Values>
+void append(std::string& text, const char* format, Values... values) {
+  char line[160];
+  std::snprintf(line, sizeof line, format, values...);
+  text += line;
+}
+
+}  // namespace
+
+Explanation explain(SituationId situation, const MotorMemory& memory, double sigma,
+                    const Curiosity& curiosity) {
+  const int n = memory.effective_count(), unexplored = memory.unexplored_count();
+  const int outcomes = outcome_count(memory);
+  Explanation why;
+  why.situation = situation;
+  why.memory = memory.copy();
+  why.explore = static_cast<double>(unexplored) / outcomes;
+  why.exploit = static_cast<double>(n) / outcomes;
+  why.exhausted = n + unexplored == 0 ? 1.0 : 0.0;
+  for (int j = 0; j < n; ++j) {
+    why.curiosity.push_back(curiosity(memory.times_learned(j)));
+    why.op_plain.push_back(op(memory, j, false, sigma, curiosity));
+    why.op_curious.push_back(op(memory, j, true, sigma, curiosity));
+  }
+  std::vector<int> outcomes_of(static_cast<std::size_t>(memory.motion_count()));
+  for (int outcome = 0; outcome < outcomes; ++outcome) {
+    const Choice choice = choice_at(memory, choose_motion(memory, outcome, sigma, curiosity));
+    ++outcomes_of[static_cast<std::size_t>(choice.motion)];
+    if (choice.kind == Kind::kExploit) why.winner.push_back(choice.motion);
+  }
+  for (const int count : outcomes_of) {
+    why.probability.push_back(static_cast<double>(count) / outcomes);
+  }
+  return why;
+}
+
+ChoiceTrace trace(SituationId situation, const MotorMemory& memory, int outcome, double sigma,
+                  const Curiosity& curiosity) {
+  ChoiceTrace trace;
+  trace.explanation = explain(situation, memory, sigma, curiosity);
+  trace.choice = choice_at(memory, choose_motion(memory, outcome, sigma, curiosity));
+  if (trace.choice.kind == Kind::kExploit) {
+    const int curious = outcome - memory.unexplored_count();
+    trace.curious = memory.effective(curious);
+    trace.op = trace.explanation.op_plain;
+    trace.op[static_cast<std::size_t>(curious)] =
+        trace.explanation.op_curious[static_cast<std::size_t>(curious)];
+  }
+  return trace;
+}
+
+std::string to_text(const Explanation& why) {
+  std::string text = "situation " + std::to_string(why.situation);
+  append(text, ": explore %.3g, exploit %.3g, exhausted %.3g\n", why.explore, why.exploit,
+         why.exhausted);
+  text += "motion  list         probability  orientation  learned  curiosity  op      op curious\n";
+  for (std::size_t j = 0; j < why.memory.effective.size(); ++j) {
+    const int motion = why.memory.effective[j];
+    append(text, "%6d  effective    %-11.4g  %-11.4g  %-7u  %-9.3g  %-6.4f  %.4f\n", motion,
+           why.probability[static_cast<std::size_t>(motion)], why.memory.orientation[j],
+           why.memory.times_learned[j], why.curiosity[j], why.op_plain[j], why.op_curious[j]);
+  }
+  const auto list = [&](const std::vector<int>& motions, const char* name) {
+    for (const int motion : motions) {
+      append(text, "%6d  %-11s  %.4g\n", motion, name,
+             why.probability[static_cast<std::size_t>(motion)]);
+    }
+  };
+  list(why.memory.ineffective, "ineffective");
+  list(why.memory.unexplored, "unexplored");
+  return text;
+}
+
+std::string to_text(const ChoiceTrace& trace) {
+  std::string text;
+  append(text, "motion %d, %s", trace.choice.motion, name_of(trace.choice.kind));
+  if (trace.curious >= 0) {
+    const auto& effective = trace.explanation.memory.effective;
+    const auto j = static_cast<std::size_t>(
+        std::find(effective.begin(), effective.end(), trace.choice.motion) - effective.begin());
+    append(text, " with op %.4f; curious about motion %d", trace.op[j], trace.curious);
+  }
+  return text + "\n" + to_text(trace.explanation);
+}
+
+}  // namespace devlearn
