@@ -29,6 +29,7 @@ void bind_random(py::module_& m);
 void bind_situation(py::module_& m);
 void bind_evaluation(py::module_& m);
 void bind_learner(py::module_& m);
+void bind_explanation(py::module_& m);
 void bind_world(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_record(py::module_& m);

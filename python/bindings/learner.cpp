@@ -134,6 +134,16 @@ void bind_results(py::module_& m) {
                     self.attr("reduced"));
       });
 
+  py::class_<MemoryUse>(m, "MemoryUse", "Memory in bytes.")
+      .def_readonly("used", &MemoryUse::used,
+                    "By the situations experienced, their index included.")
+      .def_readonly("spare", &MemoryUse::spare,
+                    "Held for more of them: reserved, or left over by growth.")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("MemoryUse(used={}, spare={})")
+            .format(self.attr("used"), self.attr("spare"));
+      });
+
   py::class_<SituationMemory>(m, "SituationMemory",
                               "What one situation holds, as a copy: three disjoint lists of motion "
                               "indices, together always M (Eq. 3-4).")
@@ -209,6 +219,15 @@ void bind_learner(py::module_& m) {
           "A situation's lists, as a copy; of one never experienced every motion is unexplored. "
           "Creates nothing.")
       .def(
+          "explain",
+          [](Idle self, Whole<SituationTag> situation) { return self->explain(situation.value); },
+          py::arg("situation"),
+          "Why motions are chosen in a situation as it is now, an Explanation. Changes nothing.")
+      .def_property_readonly(
+          "last_choice", [](Idle self) { return self->last_choice(); },
+          "Why the last choice came out as it did, learned from or not: a ChoiceTrace; None before "
+          "the first one since the learner was made or loaded.")
+      .def(
           "situations", [](Idle self) { return moved_array<SituationId>(self->situations()); },
           "Ids of the situations experienced, in that order: an int64 array.")
       .def(
@@ -247,6 +266,9 @@ void bind_learner(py::module_& m) {
       .def_property_readonly(
           "situations_experienced", [](Idle self) { return self->situations_experienced(); },
           "How many situations were experienced.")
+      .def_property_readonly(
+          "memory_use", [](Idle self) { return self->memory_use(); },
+          "Bytes used and spare, a MemoryUse.")
       .def_property_readonly("config", &Learner::config, py::return_value_policy::copy,
                              "Its parameters.")
       .def_property_readonly("seed", &Learner::seed, "The seed it began with.")

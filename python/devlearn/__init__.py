@@ -20,12 +20,15 @@ from . import errors as errors
 if TYPE_CHECKING:
     from ._core import (
         Choice,
+        ChoiceTrace,
         Circle,
         Development,
         Event,
+        Explanation,
         Kind,
         Learner,
         LearnerConfig,
+        MemoryUse,
         Observation,
         Outcome,
         Polygon,
@@ -54,14 +57,17 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Choice",
+    "ChoiceTrace",
     "Circle",
     "Development",
     "Event",
+    "Explanation",
     "FileError",
     "InvalidValue",
     "Kind",
     "Learner",
     "LearnerConfig",
+    "MemoryUse",
     "Observation",
     "Outcome",
     "Polygon",

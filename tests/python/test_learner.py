@@ -392,3 +392,34 @@ def test_python_repeats_the_golden_history_of_cpp_to_the_last_bit(preset):
     for byte in "".join(line + "\n" for line in lines).encode():
         digest = (digest ^ byte) * 0x100000001B3 % 2**64
     assert golden[0] == f"hash {digest:016x} of {len(lines)} lines"
+
+
+def test_an_explanation_and_the_trace_of_the_last_choice_say_why(paper):
+    trial = devlearn.Trial(paper, seed=2)
+    learner = trial.learner
+    assert learner.last_choice is None
+    trial.free_learning(2000)
+    before = learner.to_bytes()
+    for situation in learner.situations()[:100]:
+        why = learner.explain(situation)
+        memory = learner.situation(situation)
+        assert why.memory.effective == memory.effective
+        assert sum(why.probability) == pytest.approx(1.0)
+        assert why.explore + why.exploit + why.exhausted == pytest.approx(1.0)
+        assert len(why.op_plain) == len(why.op_curious) == len(why.winner) == len(memory.effective)
+        assert len(str(why).splitlines()) == 2 + learner.config.motion_count
+    assert learner.to_bytes() == before
+    step = trial.step()
+    trace = learner.last_choice
+    assert (trace.choice.motion, trace.choice.kind) == (step.motion, step.kind)
+    assert trace.explanation.situation == step.situation
+    assert str(trace).startswith(f"motion {step.motion}, ")
+
+
+def test_the_memory_in_use_is_told_with_what_is_spare():
+    learner = devlearn.Learner()
+    for situation in range(10_000):
+        learner.update(situation, 0, 1.0)
+    assert 82 * 10_000 <= learner.memory_use.used <= 96 * 10_000
+    learner.reserve(100_000)
+    assert learner.memory_use.spare >= 88 * 90_000
