@@ -12,45 +12,6 @@
 namespace devlearn {
 namespace {
 
-// The index is grown before more than 4/5 of its buckets are taken; longer runs of taken buckets
-// would cost more than the memory they save.
-constexpr std::size_t kLeastBuckets = 20;
-
-std::size_t situations_for(std::size_t buckets) noexcept { return buckets / 5 * 4; }
-
-std::size_t buckets_for(std::size_t situations) noexcept {
-  return std::max(kLeastBuckets, situations / 4 * 5 + 5);
-}
-
-// Spreads neighbouring ids over all 64 bits.
-std::uint64_t scattered(SituationId situation) noexcept {
-  auto bits = static_cast<std::uint64_t>(situation) * 0x9e3779b97f4a7c15U;
-  bits = (bits ^ (bits >> 32)) * 0xd6e8feb86659fd93U;
-  return bits ^ (bits >> 32);
-}
-
-// Where the search for a situation begins: the upper half of its hash, scaled to the buckets.
-std::size_t first_bucket(std::uint64_t hash, std::size_t buckets) noexcept {
-  return (hash >> 33) * buckets >> 31;
-}
-
-// A block: a situation's id, then its motor memory.
-SituationId id_in(const std::byte* block) noexcept {
-  SituationId id;
-  std::memcpy(&id, block, sizeof id);
-  return id;
-}
-
-MotorMemory memory_in(const std::byte* block, int motion_count) noexcept {
-  // The view serves reading and developing alike; const members only read through it.
-  return {const_cast<std::byte*>(block) + sizeof(SituationId), motion_count};
-}
-
-void begin_block(std::byte* block, SituationId situation, int motion_count) noexcept {
-  std::memcpy(block, &situation, sizeof situation);
-  memory_in(block, motion_count).clear();
-}
-
 void require_situation(SituationId situation) {
   if (situation < 0) {
     throw InvalidValue("situation", std::to_string(situation), "a whole number in [0, 2^63 - 1]");
@@ -171,9 +132,8 @@ Learner::Learner(const LearnerConfig& config, std::uint64_t seed)
       seed_(seed),
       random_(seed, "agent"),
       curiosity_(config.c1, config.c2),
-      bytes_per_block_(sizeof(SituationId) + MotorMemory::bytes(config.motion_count)),
-      buckets_(kLeastBuckets, kAbsent),
-      last_block_(bytes_per_block_) {}
+      store_(config.motion_count),
+      last_block_(store_.block_bytes()) {}
 
 Learner::Learner(const LearnerState& state) : Learner(state.config, state.seed) {
   require_laws(state);
@@ -183,38 +143,38 @@ Learner::Learner(const LearnerState& state) : Learner(state.config, state.seed) 
   const double* orientation = all.orientation.data();
   const std::uint32_t* times_learned = all.times_learned.data();
   for (std::size_t i = 0; i < all.situation.size(); ++i) {
-    const std::uint32_t slot = find_or_add(all.situation[i]);
+    const Slot slot = store_.find_or_add(all.situation[i]);
     if (slot != i) refuse_memory("situation", i, std::to_string(all.situation[i]), "each id once");
     const int n = all.effective_count[i], ineffective = all.ineffective_count[i];
-    memory(slot).assign(&all.motions[i * config_.motion_count], n, ineffective, orientation,
-                        times_learned);
+    store_.memory(slot).assign(&all.motions[i * config_.motion_count], n, ineffective, orientation,
+                               times_learned);
     orientation += n;
     times_learned += n;
     effective_count_ += n;
     explored_count_ += n + ineffective;
   }
   if (state.pending) {
-    pending_slot_ = find(state.pending->situation);
+    pending_slot_ = store_.find(state.pending->situation);
     pending_choice_ = state.pending->choice;
-    if (pending_slot_ == kAbsent) {
+    if (pending_slot_ == SituationStore::kAbsent) {
       throw InvalidValue("pending.situation", std::to_string(state.pending->situation),
                          "a situation that was experienced");
     }
-    pending_position_ = memory(pending_slot_).find(pending_choice_.motion);
+    pending_position_ = store_.memory(pending_slot_).find(pending_choice_.motion);
   }
 }
 
 Choice Learner::choose(SituationId situation) {
   require_situation(situation);
-  if (pending_slot_ != kAbsent) {
+  if (pending_slot_ != SituationStore::kAbsent) {
     throw InvalidValue("Learner.choose", "a second choice before the first met its outcome",
                        "learn() or cancel() between two choices");
   }
-  const std::uint32_t slot = find_or_add(situation);
-  const MotorMemory here = memory(slot);
+  const Slot slot = store_.find_or_add(situation);
+  const MotorMemory here = store_.memory(slot);
   const auto outcomes = static_cast<std::uint32_t>(outcome_count(here));
   last_outcome_ = static_cast<int>(random_.index(outcomes));
-  std::copy_n(block(slot), bytes_per_block_, last_block_.data());
+  std::memcpy(last_block_.data(), store_.block(slot), last_block_.size());
   pending_position_ = choose_motion(here, last_outcome_, config_.sigma, curiosity_);
   pending_choice_ = choice_at(here, pending_position_);
   pending_slot_ = slot;
@@ -222,43 +182,43 @@ Choice Learner::choose(SituationId situation) {
 }
 
 Development Learner::learn(double smf) {
-  const std::uint32_t slot = require_pending("Learner.learn");
+  const Slot slot = require_pending("Learner.learn");
   require_finite("smf", smf);
-  pending_slot_ = kAbsent;
+  pending_slot_ = SituationStore::kAbsent;
   return develop(slot, pending_choice_.motion, pending_position_, smf);
 }
 
 Development Learner::learn(double smf, int motion) {
-  const std::uint32_t slot = require_pending("Learner.learn");
+  const Slot slot = require_pending("Learner.learn");
   require_finite("smf", smf);
   require_count("motion", motion, 0, config_.motion_count - 1);
-  pending_slot_ = kAbsent;
-  return develop(slot, motion, memory(slot).find(motion), smf);
+  pending_slot_ = SituationStore::kAbsent;
+  return develop(slot, motion, store_.memory(slot).find(motion), smf);
 }
 
 void Learner::cancel() {
   require_pending("Learner.cancel");
-  pending_slot_ = kAbsent;
+  pending_slot_ = SituationStore::kAbsent;
 }
 
 Development Learner::update(SituationId situation, int motion, double smf) {
   require_situation(situation);
   require_count("motion", motion, 0, config_.motion_count - 1);
   require_finite("smf", smf);
-  const std::uint32_t slot = find_or_add(situation);
-  const Development development = develop(slot, motion, memory(slot).find(motion), smf);
-  if (slot == pending_slot_) pending_position_ = memory(slot).find(pending_choice_.motion);
+  const Slot slot = store_.find_or_add(situation);
+  const Development development = develop(slot, motion, store_.memory(slot).find(motion), smf);
+  if (slot == pending_slot_) pending_position_ = store_.memory(slot).find(pending_choice_.motion);
   return development;
 }
 
 // Steps 4 and 5.
-Development Learner::develop(std::uint32_t slot, int motion, MotorMemory::Position position,
+Development Learner::develop(Slot slot, int motion, MotorMemory::Position position,
                              double smf) noexcept {
   Development development;
-  development.situation = id(slot);
+  development.situation = store_.id(slot);
   development.motion = motion;
 
-  MotorMemory situation = memory(slot);
+  MotorMemory situation = store_.memory(slot);
   const int effective_before = situation.effective_count();
   const bool effective = smf >= 0.0;
 
@@ -303,38 +263,26 @@ Development Learner::develop(std::uint32_t slot, int motion, MotorMemory::Positi
 
 SituationMemory Learner::situation(SituationId situation) const {
   require_situation(situation);
-  const std::uint32_t slot = find(situation);
-  if (slot != kAbsent) return memory(slot).copy();
-  return memory_in(unexperienced(situation).data(), config_.motion_count).copy();
-}
-
-std::vector<std::byte> Learner::unexperienced(SituationId situation) const {
-  std::vector<std::byte> block(bytes_per_block_);
-  begin_block(block.data(), situation, config_.motion_count);
-  return block;
+  std::vector<std::byte> fresh;
+  return store_.look_up(situation, fresh).copy();
 }
 
 std::vector<SituationId> Learner::situations() const {
-  std::vector<SituationId> ids(count_);
-  for (std::uint32_t slot = 0; slot < count_; ++slot) ids[slot] = id(slot);
+  std::vector<SituationId> ids(store_.size());
+  for (Slot slot = 0; slot < store_.size(); ++slot) ids[slot] = store_.id(slot);
   return ids;
 }
 
 Explanation Learner::explain(SituationId situation) const {
   require_situation(situation);
-  const std::uint32_t slot = find(situation);
-  if (slot != kAbsent) {
-    return devlearn::explain(situation, memory(slot), config_.sigma, curiosity_);
-  }
-  const std::vector<std::byte> block = unexperienced(situation);
-  return devlearn::explain(situation, memory_in(block.data(), config_.motion_count), config_.sigma,
-                           curiosity_);
+  std::vector<std::byte> fresh;
+  return devlearn::explain(situation, store_.look_up(situation, fresh), config_.sigma, curiosity_);
 }
 
 std::optional<ChoiceTrace> Learner::last_choice() const {
   if (last_outcome_ < 0) return std::nullopt;
   const std::byte* const block = last_block_.data();
-  return trace(id_in(block), memory_in(block, config_.motion_count), last_outcome_, config_.sigma,
+  return trace(store_.id_in(block), store_.memory_in(block), last_outcome_, config_.sigma,
                curiosity_);
 }
 
@@ -343,98 +291,35 @@ LearnerState Learner::state() const {
   state.config = config_;
   state.seed = seed_;
   state.random = random_.state();
-  if (pending_slot_ != kAbsent) state.pending = {id(pending_slot_), pending_choice_};
+  if (pending_slot_ != SituationStore::kAbsent)
+    state.pending = {store_.id(pending_slot_), pending_choice_};
   LearnerMemory& all = state.memory;
   all.situation = situations();
-  all.effective_count.reserve(count_);
-  all.ineffective_count.reserve(count_);
-  all.motions.reserve(count_ * config_.motion_count);
+  all.effective_count.reserve(store_.size());
+  all.ineffective_count.reserve(store_.size());
+  all.motions.reserve(store_.size() * config_.motion_count);
   all.orientation.reserve(static_cast<std::size_t>(effective_count_));
   all.times_learned.reserve(static_cast<std::size_t>(effective_count_));
-  for (std::uint32_t slot = 0; slot < count_; ++slot) {
-    memory(slot).append_to(all.motions, all.orientation, all.times_learned);
-    all.effective_count.push_back(static_cast<std::uint16_t>(memory(slot).effective_count()));
-    all.ineffective_count.push_back(static_cast<std::uint16_t>(memory(slot).ineffective_count()));
+  for (Slot slot = 0; slot < store_.size(); ++slot) {
+    store_.memory(slot).append_to(all.motions, all.orientation, all.times_learned);
+    all.effective_count.push_back(
+        static_cast<std::uint16_t>(store_.memory(slot).effective_count()));
+    all.ineffective_count.push_back(
+        static_cast<std::uint16_t>(store_.memory(slot).ineffective_count()));
   }
   return state;
 }
 
 std::optional<Choice> Learner::pending() const noexcept {
-  if (pending_slot_ == kAbsent) return std::nullopt;
+  if (pending_slot_ == SituationStore::kAbsent) return std::nullopt;
   return pending_choice_;
 }
 
-std::uint32_t Learner::require_pending(const char* call) const {
-  if (pending_slot_ == kAbsent) {
+Learner::Slot Learner::require_pending(const char* call) const {
+  if (pending_slot_ == SituationStore::kAbsent) {
     throw InvalidValue(call, "no choice that waits for its outcome", "a choose() before it");
   }
   return pending_slot_;
-}
-
-// --- the situations experienced ----------------------------------------------------------------
-
-const std::byte* Learner::block(std::uint32_t slot) const noexcept {
-  return blocks_.data() + slot * bytes_per_block_;
-}
-
-SituationId Learner::id(std::uint32_t slot) const noexcept { return id_in(block(slot)); }
-
-MotorMemory Learner::memory(std::uint32_t slot) const noexcept {
-  return memory_in(block(slot), config_.motion_count);
-}
-
-std::uint32_t Learner::find(SituationId situation) const noexcept {
-  const std::size_t size = buckets_.size();
-  for (std::size_t bucket = first_bucket(scattered(situation), size);;) {
-    const std::uint32_t slot = buckets_[bucket];
-    if (slot == kAbsent || id(slot) == situation) return slot;
-    if (++bucket == size) bucket = 0;
-  }
-}
-
-std::uint32_t Learner::find_or_add(SituationId situation) {
-  const std::uint32_t found = find(situation);
-  if (found != kAbsent) return found;
-
-  // Everything that may fail comes first, so that a failed allocation changes nothing.
-  const std::size_t count = count_ + 1;
-  if (count * bytes_per_block_ > blocks_.capacity() || count > situations_for(buckets_.size())) {
-    reserve(std::max(count, std::min<std::size_t>(count_ + count_ / 2 + 8, kAbsent - 1)));
-  }
-  const auto slot = static_cast<std::uint32_t>(count_);
-  blocks_.resize(count * bytes_per_block_);
-  begin_block(blocks_.data() + slot * bytes_per_block_, situation, config_.motion_count);
-  index_into(buckets_, slot);
-  count_ = count;
-  return slot;
-}
-
-void Learner::reserve(std::size_t situations) {
-  if (situations >= kAbsent) {
-    throw InvalidValue("situations", std::to_string(situations), "at most 4294967294");
-  }
-  blocks_.reserve(situations * bytes_per_block_);
-  if (situations > situations_for(buckets_.size())) {
-    std::vector<std::uint32_t> buckets(buckets_for(situations), kAbsent);
-    for (std::uint32_t slot = 0; slot < count_; ++slot) index_into(buckets, slot);
-    buckets_ = std::move(buckets);
-  }
-}
-
-void Learner::index_into(std::vector<std::uint32_t>& buckets, std::uint32_t slot) const noexcept {
-  const std::size_t size = buckets.size();
-  std::size_t bucket = first_bucket(scattered(id(slot)), size);
-  while (buckets[bucket] != kAbsent) {
-    if (++bucket == size) bucket = 0;
-  }
-  buckets[bucket] = slot;
-}
-
-MemoryUse Learner::memory_use() const noexcept {
-  const std::size_t per_bucket = sizeof buckets_[0];
-  const std::size_t index = std::min(buckets_.size(), buckets_for(count_)) * per_bucket;
-  const std::size_t used = blocks_.size() + index;
-  return {used, blocks_.capacity() + buckets_.size() * per_bucket - used};
 }
 
 }  // namespace devlearn

@@ -25,8 +25,8 @@ def library(name):
 
 CORE_SOURCES, CORE_HEADERS = library("core")
 SIM_SOURCES, SIM_HEADERS = library("sim")
-# The C++ library cannot flush a file to the disk.
-OPERATING_SYSTEM = {"fcntl.h", "unistd.h", "sys/file.h", "sys/stat.h"}
+# The C++ library cannot flush a file to the disk, nor ask for huge pages.
+OPERATING_SYSTEM = {"fcntl.h", "unistd.h", "sys/file.h", "sys/mman.h", "sys/stat.h"}
 
 
 def includes(path):

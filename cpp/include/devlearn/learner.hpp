@@ -10,6 +10,7 @@
 #include "devlearn/motor_memory.hpp"
 #include "devlearn/random.hpp"
 #include "devlearn/situation.hpp"
+#include "devlearn/situation_store.hpp"
 
 namespace devlearn {
 
@@ -81,12 +82,6 @@ struct LearnerMemory {
 struct PendingChoice {
   SituationId situation = -1;
   Choice choice;
-};
-
-/// Memory in bytes.
-struct MemoryUse {
-  std::size_t used = 0;   ///< by the situations experienced, their index included
-  std::size_t spare = 0;  ///< held for more of them: reserved, or left over by growth
 };
 
 /// Everything that a learner goes on from.
@@ -170,12 +165,12 @@ class Learner {
 
   /// Makes room for `situations` in all, so that up to then nothing is allocated. Throws
   /// InvalidValue for more than 2^32 - 2, std::bad_alloc where memory does not suffice.
-  void reserve(std::size_t situations);
+  void reserve(std::size_t situations) { store_.reserve(situations); }
 
   std::int64_t explored_count() const noexcept { return explored_count_; }    ///< NUM_RM
   std::int64_t effective_count() const noexcept { return effective_count_; }  ///< NUM_M
-  std::size_t situations_experienced() const noexcept { return count_; }
-  MemoryUse memory_use() const noexcept;
+  std::size_t situations_experienced() const noexcept { return store_.size(); }
+  MemoryUse memory_use() const noexcept { return store_.memory_use(); }
 
   const LearnerConfig& config() const noexcept { return config_; }
   std::uint64_t seed() const noexcept { return seed_; }
@@ -183,32 +178,18 @@ class Learner {
   std::optional<Choice> pending() const noexcept;
 
  private:
-  static constexpr std::uint32_t kAbsent = 0xffffffffU;
+  using Slot = SituationStore::Slot;
 
-  const std::byte* block(std::uint32_t slot) const noexcept;
-  SituationId id(std::uint32_t slot) const noexcept;
-  MotorMemory memory(std::uint32_t slot) const noexcept;
-  std::vector<std::byte> unexperienced(SituationId situation) const;
-  std::uint32_t find(SituationId situation) const noexcept;
-  std::uint32_t find_or_add(SituationId situation);
-  void index_into(std::vector<std::uint32_t>& buckets, std::uint32_t slot) const noexcept;
-  Development develop(std::uint32_t slot, int motion, MotorMemory::Position position,
-                      double smf) noexcept;
-  std::uint32_t require_pending(const char* call) const;
+  Development develop(Slot slot, int motion, MotorMemory::Position position, double smf) noexcept;
+  Slot require_pending(const char* call) const;
 
   LearnerConfig config_;
   std::uint64_t seed_;
   Random random_;
   Curiosity curiosity_;
+  SituationStore store_;
 
-  // Situations in order of first experience, a block each: its id, then what MotorMemory views.
-  // buckets_ is an open-addressing index from id to slot, the block's number.
-  std::size_t bytes_per_block_;
-  std::size_t count_ = 0;
-  std::vector<std::byte> blocks_;
-  std::vector<std::uint32_t> buckets_;
-
-  std::uint32_t pending_slot_ = kAbsent;
+  Slot pending_slot_ = SituationStore::kAbsent;
   Choice pending_choice_;
   MotorMemory::Position pending_position_{};  // where its motion stands
   // The last choice: the block as it was, and what was drawn.
