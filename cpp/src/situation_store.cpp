@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "devlearn/error.hpp"
 
@@ -50,12 +49,9 @@ void SituationStore::reserve(std::size_t situations) {
   if (situations >= kAbsent) {
     throw InvalidValue("situations", std::to_string(situations), "at most 4294967294");
   }
-  // Whatever may fail comes first. All of it is written to, so that the system hands it out now.
-  const bool larger_index = situations > situations_for(buckets_.size());
-  decltype(buckets_) buckets(larger_index ? buckets_for(situations) : 0, kAbsent);
   if (situations * block_bytes_ > blocks_.size()) blocks_.resize(situations * block_bytes_);
-  if (larger_index) {
-    buckets_ = std::move(buckets);
+  if (situations > situations_for(buckets_.size())) {
+    buckets_ = decltype(buckets_)(buckets_for(situations), kAbsent);
     slot_mask_ = mask_for(situations_for(buckets_.size()));
     for (Slot slot = 0; slot < size_; ++slot) put(slot, bucket_of(id(slot)));
   }

@@ -9,7 +9,8 @@ namespace devlearn {
 /// are read in no order, and finding a small page costs as much as reading it. A hint only.
 void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
 
-/// std::allocator, but what is large begins with a huge page and asks for them.
+/// std::allocator, but what is large begins with a huge page and asks for them, and what a vector
+/// is resized by is not written to: the system hands memory out when it is first used.
 template <typename T>
 struct PageAllocator {
   using value_type = T;
@@ -33,6 +34,15 @@ struct PageAllocator {
     } else {
       ::operator delete (memory, std::align_val_t{kHugePage});
     }
+  }
+
+  template <typename U>
+  void construct(U* place) noexcept {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <typename U>
+  void construct(U* place, const U& value) noexcept {
+    ::new (static_cast<void*>(place)) U(value);
   }
 
   friend bool operator==(const PageAllocator&, const PageAllocator&) noexcept { return true; }
