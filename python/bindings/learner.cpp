@@ -170,6 +170,7 @@ void bind_results(py::module_& m) {
 void bind_learner(py::module_& m) {
   bind_config(m);
   bind_results(m);
+  bind_explanation(m);  // it shows results, and the learner shows it
 
   const auto copy = [](Idle self) { return Learner(*self); };
   py::class_<Learner, std::shared_ptr<Learner>>(
