@@ -13,12 +13,15 @@ import typing
 
 __all__: list[str] = [
     "Choice",
+    "ChoiceTrace",
     "Circle",
     "Development",
     "Event",
+    "Explanation",
     "Kind",
     "Learner",
     "LearnerConfig",
+    "MemoryUse",
     "Observation",
     "Outcome",
     "Polygon",
@@ -359,6 +362,22 @@ class Development:
         The situation learned in.
         """
 
+class MemoryUse:
+    """
+    Memory in bytes.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def spare(self) -> int:
+        """
+        Held for more of them: reserved, or left over by growth.
+        """
+    @property
+    def used(self) -> int:
+        """
+        By the situations experienced, their index included.
+        """
+
 class SituationMemory:
     """
     What one situation holds, as a copy: three disjoint lists of motion indices, together always M (Eq. 3-4).
@@ -388,6 +407,91 @@ class SituationMemory:
     def unexplored(self) -> list[int]:
         """
         RM_i: motions not tried yet.
+        """
+
+class Explanation:
+    """
+    Why motions are chosen in a situation: all that step 3 makes of its memory. Of N motions,
+    n are effective. str() of it is a table.
+    """
+    def __repr__(self) -> str: ...
+    def __str__(self) -> str: ...
+    @property
+    def curiosity(self) -> list[float]:
+        """
+        n values: c_ik of each effective motion, Eq. 5.
+        """
+    @property
+    def exhausted(self) -> float:
+        """
+        1 where nothing is left to explore or exploit, otherwise 0.
+        """
+    @property
+    def exploit(self) -> float:
+        """
+        Probability to exploit, n / (n + n_R).
+        """
+    @property
+    def explore(self) -> float:
+        """
+        Probability to explore, n_R / (n + n_R).
+        """
+    @property
+    def memory(self) -> SituationMemory:
+        """
+        What the choice goes by: lists, orientations, counts.
+        """
+    @property
+    def op_curious(self) -> list[float]:
+        """
+        n values: op of each, its own curiosity active, Eq. 7.
+        """
+    @property
+    def op_plain(self) -> list[float]:
+        """
+        n values: op of each, another one's curiosity active, Eq. 7.
+        """
+    @property
+    def probability(self) -> list[float]:
+        """
+        N values: of each motion of M to be chosen; they sum to 1.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        The situation's id.
+        """
+    @property
+    def winner(self) -> list[int]:
+        """
+        n values: the motion that wins where the curiosity of each is active.
+        """
+
+class ChoiceTrace:
+    """
+    Why one choice came out as it did. str() of it is a table.
+    """
+    def __repr__(self) -> str: ...
+    def __str__(self) -> str: ...
+    @property
+    def choice(self) -> Choice:
+        """
+        The Choice.
+        """
+    @property
+    def curious(self) -> int:
+        """
+        The motion whose curiosity was drawn; -1 unless exploited.
+        """
+    @property
+    def explanation(self) -> Explanation:
+        """
+        Of the situation as the choice found it.
+        """
+    @property
+    def op(self) -> list[float]:
+        """
+        n values: op of each effective motion, Eq. 7; empty unless exploited.
         """
 
 class Learner:
@@ -432,6 +536,10 @@ class Learner:
     def copy(self) -> Learner:
         """
         An independent learner that goes on alike.
+        """
+    def explain(self, situation: typing.SupportsIndex) -> Explanation:
+        """
+        Why motions are chosen in a situation as it is now, an Explanation. Changes nothing.
         """
     def learn(
         self,
@@ -484,6 +592,16 @@ class Learner:
     def explored_count(self) -> int:
         """
         NUM_RM: mappings explored so far.
+        """
+    @property
+    def last_choice(self) -> ChoiceTrace | None:
+        """
+        Why the last choice came out as it did, learned from or not: a ChoiceTrace; None before the first one since the learner was made or loaded.
+        """
+    @property
+    def memory_use(self) -> MemoryUse:
+        """
+        Bytes used and spare, a MemoryUse.
         """
     @property
     def pending(self) -> Choice | None:
