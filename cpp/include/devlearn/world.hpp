@@ -101,7 +101,7 @@ class World {
     Point before, a, b, after;
     ///@}
   };
-  const std::vector<Edge>& edges() const noexcept;  ///< walls first
+  const std::vector<Edge>& edges() const noexcept;      ///< walls first
   const std::vector<Circle>& circles() const noexcept;  ///< of all obstacles that are circles
 
   /// What is near a point.
