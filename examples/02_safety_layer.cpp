@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 #include "devlearn/learner.hpp"
@@ -65,6 +66,7 @@ struct Robot {
 struct Result {
   int refusals[4] = {};  // in each quarter of the ticks
   int docked = 0;
+  std::string explanation;  // of the place before the eastern edge
 };
 
 // tell: of the refusals, too.
@@ -101,6 +103,7 @@ Result run(int seed, bool tell) {
       robot.place_anywhere();
     }
   }
+  result.explanation = to_text(learner.explain(59));
   return result;
 }
 
@@ -115,16 +118,22 @@ int main() {
   int late[2];
   for (const bool tell : {false, true}) {
     std::vector<int> first, last, docked;
+    std::string explanation;
     for (int seed = 1; seed <= 11; ++seed) {
       const Result result = run(seed, tell);
       first.push_back(result.refusals[0]);
       last.push_back(result.refusals[3]);
       docked.push_back(result.docked);
+      explanation = result.explanation;
     }
     std::printf("the learner is %stold of refusals\n", tell ? "" : "not ");
     print_summary("refused in ticks    1 ... 1000", first);
     late[tell] = print_summary("refused in ticks 3001 ... 4000", last);
     print_summary("times docked                  ", docked);
+    std::printf(
+        "what the last one makes of the place before the eastern edge, where east is refused:\n"
+        "%s\n",
+        explanation.c_str());
   }
   return 2 * late[true] < late[false] ? 0 : 1;
 }

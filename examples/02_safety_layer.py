@@ -47,7 +47,7 @@ class Robot:
 
 
 def run(seed, tell):
-    """Refusals in each quarter of the ticks, and times docked. tell: of the refusals, too."""
+    """Refusals in each quarter of the ticks, times docked, the learner. tell: of refusals, too."""
     random = devlearn.Random(seed, "example")
     robot = Robot(random)
     learner = devlearn.Learner(devlearn.LearnerConfig(motion_count=4), seed)
@@ -73,7 +73,7 @@ def run(seed, tell):
         if robot.distance() < 0.06:
             docked += 1
             robot.place_anywhere()
-    return refusals, docked
+    return refusals, docked, learner
 
 
 def summary(values):
@@ -85,8 +85,10 @@ results = {}
 for tell in (False, True):
     runs = [run(seed, tell) for seed in range(1, 12)]
     print("the learner is told of refusals" if tell else "the learner is not told of refusals")
-    print("  refused in ticks    1 ... 1000:", summary([refusals[0] for refusals, _ in runs]))
-    print("  refused in ticks 3001 ... 4000:", summary([refusals[3] for refusals, _ in runs]))
-    print("  times docked                  :", summary([docked for _, docked in runs]))
-    results[tell] = sorted(refusals[3] for refusals, _ in runs)
+    print("  refused in ticks    1 ... 1000:", summary([refusals[0] for refusals, _, _ in runs]))
+    print("  refused in ticks 3001 ... 4000:", summary([refusals[3] for refusals, _, _ in runs]))
+    print("  times docked                  :", summary([docked for _, docked, _ in runs]))
+    results[tell] = sorted(refusals[3] for refusals, _, _ in runs)
+    print("what the last one makes of the place before the eastern edge, where east is refused:")
+    print(runs[-1][2].explain(59))
 sys.exit(not 2 * results[True][5] < results[False][5])

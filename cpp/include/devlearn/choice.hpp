@@ -17,8 +17,8 @@ enum class Kind : std::uint8_t {
 
 /// A motion to execute: its index in M, and why.
 struct Choice {
-  int motion = -1;
-  Kind kind = Kind::kUnstated;
+  int motion = -1;              ///< its index in M
+  Kind kind = Kind::kUnstated;  ///< why
 };
 
 /// Eq. 5: the curiosity 1/(1 + exp(c1 (n - c2))) about a motion learned n times; 0 where the
@@ -28,8 +28,10 @@ double curiosity(double times_learned, double c1, double c2) noexcept;
 /// The same for whole counts under one c1 and c2, its first values computed once.
 class Curiosity {
  public:
+  /// Those of LearnerConfig.
   Curiosity(double c1, double c2) noexcept;
 
+  /// About a motion learned so many times.
   double operator()(std::uint32_t times_learned) const noexcept {
     return times_learned < first_.size() ? first_[times_learned]
                                          : curiosity(times_learned, c1_, c2_);

@@ -11,13 +11,18 @@ namespace devlearn {
 /// allowed; the object that refused is left as it was.
 class InvalidValue : public std::invalid_argument {
  public:
+  /// what() is made of the three.
   InvalidValue(std::string quantity, std::string value, std::string allowed);
 
+  /// Which, such as `LearnerConfig.sigma`.
   const std::string& quantity() const noexcept { return quantity_; }
+  /// What was given.
   const std::string& value() const noexcept { return value_; }
+  /// What is allowed.
   const std::string& allowed() const noexcept { return allowed_; }
 
  protected:
+  /// With a message of one's own.
   InvalidValue(const std::string& message, std::string quantity, std::string value,
                std::string allowed);
 
@@ -28,8 +33,10 @@ class InvalidValue : public std::invalid_argument {
 /// The same for a file: it also says which file and, where there is one, which field.
 class FileError : public InvalidValue {
  public:
+  /// what() is made of the four.
   FileError(std::string file, std::string field, std::string value, std::string allowed);
 
+  /// Path of the file, or what stands for it.
   const std::string& file() const noexcept { return file_; }
   /// Path of the field within the file, such as `obstacles[2].radius`; empty for the whole file.
   const std::string& field() const noexcept { return quantity(); }

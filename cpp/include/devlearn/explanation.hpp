@@ -12,7 +12,7 @@ namespace devlearn {
 /// Why motions are chosen in a situation: all that step 3 makes of its memory. Of N motions, n are
 /// effective.
 struct Explanation {
-  SituationId situation = -1;
+  SituationId situation = -1;       ///< which
   SituationMemory memory;           ///< what the choice goes by: lists, orientations, counts
   double explore = 0.0;             ///< probability to explore, n_R / (n + n_R)
   double exploit = 0.0;             ///< probability to exploit, n / (n + n_R)
@@ -27,9 +27,9 @@ struct Explanation {
 /// Why one choice came out as it did.
 struct ChoiceTrace {
   Explanation explanation;  ///< of the situation as the choice found it
-  Choice choice;
-  int curious = -1;        ///< the motion whose curiosity was drawn; -1 unless exploited
-  std::vector<double> op;  ///< n: op of each effective motion, Eq. 7; empty unless exploited
+  Choice choice;            ///< what came out
+  int curious = -1;         ///< the motion whose curiosity was drawn; -1 unless exploited
+  std::vector<double> op;   ///< n: op of each effective motion, Eq. 7; empty unless exploited
 };
 
 /// Explains the choices in a situation's memory.

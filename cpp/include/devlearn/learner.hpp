@@ -33,8 +33,8 @@ struct LearnerConfig {
   double sigma = 0.3;    ///< weight of orientation against curiosity in Eq. 7, in (0, 1)
   double c1 = 0.5;       ///< how fast curiosity wanes, Eq. 5; in [0, 1e6]
   double c2 = 1.0;       ///< times learned at which curiosity is 1/2, Eq. 5; in [-1e6, 1e6]
-  OnNegative on_negative = OnNegative::kAbandon;
-  WhenExhausted when_exhausted = WhenExhausted::kRetry;
+  OnNegative on_negative = OnNegative::kAbandon;         ///< step 4 or step 5
+  WhenExhausted when_exhausted = WhenExhausted::kRetry;  ///< where nothing effective is left
 
   /// The default: step 4's reading (abandon, retry), under which the paper's results come out.
   static LearnerConfig paper() { return {}; }
@@ -61,9 +61,9 @@ enum class Event : std::uint8_t {
 
 /// The outcome of one learning step.
 struct Development {
-  SituationId situation = -1;
-  int motion = -1;
-  Event event = Event::kNothing;
+  SituationId situation = -1;     ///< learned in
+  int motion = -1;                ///< learned about
+  Event event = Event::kNothing;  ///< what became of it
   int reduced = 0;  ///< motions that reduction development (Eq. 14-17) moved to M-bar_i
 };
 
@@ -80,17 +80,17 @@ struct LearnerMemory {
 
 /// A choice that waits for its outcome, and where it was made.
 struct PendingChoice {
-  SituationId situation = -1;
-  Choice choice;
+  SituationId situation = -1;  ///< in which it was made
+  Choice choice;               ///< what was chosen
 };
 
 /// Everything that a learner goes on from.
 struct LearnerState {
-  LearnerConfig config;
-  std::uint64_t seed = 0;
-  Random::State random{};  ///< of the stream "agent"
-  std::optional<PendingChoice> pending;
-  LearnerMemory memory;
+  LearnerConfig config;                  ///< its parameters
+  std::uint64_t seed = 0;                ///< that it began with
+  Random::State random{};                ///< of the stream "agent"
+  std::optional<PendingChoice> pending;  ///< the choice that waits for its outcome
+  LearnerMemory memory;                  ///< all that it remembers
 };
 
 /// The sensorimotor developmental learner: a situation in, a motion out; how good it was in, the
@@ -117,11 +117,11 @@ class Learner {
   /// whose sum is not 1 within 1e-9, counts below 1, a situation twice, sizes that do not fit.
   explicit Learner(const LearnerState& state);
 
-  Learner(const Learner&) = default;
-  Learner(Learner&&) noexcept = default;
+  Learner(const Learner&) = default;      ///< independent, and goes on alike
+  Learner(Learner&&) noexcept = default;  ///< leaves one to assign to or destroy, nothing else
   /// Where memory for the copy does not suffice, this learner is left as it was.
   Learner& operator=(const Learner& other) { return *this = Learner(other); }
-  Learner& operator=(Learner&&) noexcept = default;
+  Learner& operator=(Learner&&) noexcept = default;  ///< likewise
   ~Learner() = default;
 
   /// Step 3: chooses a motion for a situation >= 0. Throws InvalidValue for a negative situation
@@ -169,11 +169,13 @@ class Learner {
 
   std::int64_t explored_count() const noexcept { return explored_count_; }    ///< NUM_RM
   std::int64_t effective_count() const noexcept { return effective_count_; }  ///< NUM_M
+  /// How many they are.
   std::size_t situations_experienced() const noexcept { return store_.size(); }
+  /// What its memory takes.
   MemoryUse memory_use() const noexcept { return store_.memory_use(); }
 
-  const LearnerConfig& config() const noexcept { return config_; }
-  std::uint64_t seed() const noexcept { return seed_; }
+  const LearnerConfig& config() const noexcept { return config_; }  ///< its parameters
+  std::uint64_t seed() const noexcept { return seed_; }             ///< that it began with
   /// The choice that waits for its outcome, if any.
   std::optional<Choice> pending() const noexcept;
 

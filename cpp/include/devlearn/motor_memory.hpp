@@ -39,27 +39,37 @@ class MotorMemory {
   /// Makes the storage a situation never experienced: every motion unexplored.
   void clear() noexcept;
 
-  int motion_count() const noexcept { return motion_count_; }
+  int motion_count() const noexcept { return motion_count_; }   ///< N_M
   int effective_count() const noexcept { return sizes_[0]; }    ///< n_i
   int ineffective_count() const noexcept { return sizes_[1]; }  ///< n-bar_i
   int unexplored_count() const noexcept {                       ///< n_R
     return motion_count_ - effective_count() - ineffective_count();
   }
 
+  ///@{
+  /// The j-th motion of a list.
   int effective(int j) const noexcept { return motions_[j]; }
   int ineffective(int j) const noexcept { return motions_[effective_count() + j]; }
   int unexplored(int j) const noexcept {
     return motions_[effective_count() + ineffective_count() + j];
   }
-  double orientation(int j) const noexcept { return orientation_[j]; }
+  ///@}
+  double orientation(int j) const noexcept { return orientation_[j]; }  ///< o_ij of effective(j)
+  /// n_ij of effective(j).
   std::uint32_t times_learned(int j) const noexcept { return times_learned_[j]; }
 
-  /// Where a motion stands in its list.
-  enum class List { kEffective, kIneffective, kUnexplored };
-  struct Position {
-    List list;
-    int index;
+  /// The three lists.
+  enum class List {
+    kEffective,    ///< M_i
+    kIneffective,  ///< M-bar_i
+    kUnexplored,   ///< RM_i
   };
+  /// Where a motion stands.
+  struct Position {
+    List list;  ///< in which
+    int index;  ///< from 0
+  };
+  /// Where a motion of M stands.
   Position find(int motion) const noexcept {
     int place = 0;
     for (int i = 1; i < motion_count_; ++i) place = motions_[i] == motion ? i : place;
@@ -140,6 +150,7 @@ class MotorMemory {
     divide_orientations(orientation_sum());
   }
 
+  /// All of it.
   SituationMemory copy() const;
 
   /// Takes over lists and what belongs to them: motion_count motions, M_i first, then M-bar_i; and
