@@ -13,6 +13,8 @@ void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
 /// is resized by is not written to: the system hands memory out when it is first used.
 template <typename T>
 struct PageAllocator {
+  ///@{
+  /// What the standard library asks of an allocator.
   using value_type = T;
 
   PageAllocator() = default;
@@ -47,6 +49,7 @@ struct PageAllocator {
 
   friend bool operator==(const PageAllocator&, const PageAllocator&) noexcept { return true; }
   friend bool operator!=(const PageAllocator&, const PageAllocator&) noexcept { return false; }
+  ///@}
 
  private:
   static constexpr std::size_t kHugePage = std::size_t{2} << 20;

@@ -23,9 +23,10 @@ struct MemoryUse {
 /// that does not grow with their number.
 class SituationStore {
  public:
-  using Slot = std::uint32_t;  ///< a block's number, from 0
-  static constexpr Slot kAbsent = 0xffffffffU;
+  using Slot = std::uint32_t;                   ///< a block's number, from 0
+  static constexpr Slot kAbsent = 0xffffffffU;  ///< no block's
 
+  /// motion_count: N_M.
   explicit SituationStore(int motion_count);
 
   /// Where a situation is, or kAbsent.
@@ -39,6 +40,7 @@ class SituationStore {
     return found != kAbsent ? found : add(situation, bucket);
   }
 
+  /// Which situation a block is of.
   SituationId id(Slot slot) const noexcept { return id_in(block(slot)); }
 
   /// Its motor memory; the view serves reading and developing alike.
@@ -48,14 +50,17 @@ class SituationStore {
   /// then made in `fresh`.
   MotorMemory look_up(SituationId situation, std::vector<std::byte>& fresh) const;
 
+  /// How many there are.
   std::size_t size() const noexcept { return size_; }
 
   /// Makes room for so many in all. Throws InvalidValue for more than 2^32 - 2, std::bad_alloc
   /// where memory does not suffice; then nothing has changed.
   void reserve(std::size_t situations);
 
+  /// What they take.
   MemoryUse memory_use() const noexcept;
 
+  ///@{
   /// A block's bytes, for whoever keeps a copy, and what a copy holds.
   std::size_t block_bytes() const noexcept { return block_bytes_; }
   const std::byte* block(Slot slot) const noexcept { return blocks_.data() + slot * block_bytes_; }
@@ -67,6 +72,7 @@ class SituationStore {
   MotorMemory memory_in(const std::byte* block) const noexcept {
     return {const_cast<std::byte*>(block) + sizeof(SituationId), motion_count_};
   }
+  ///@}
 
  private:
   // Spreads neighbouring ids over all 64 bits.
