@@ -20,16 +20,20 @@ constexpr const char* kWritable = "a file that can be written";
 
 // Where a file of this name lies: a link goes on pointing at it. A device must not be replaced.
 std::string place_of(const std::string& path) {
+  namespace fs = std::filesystem;
   std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (!std::filesystem::exists(status)) return path;
-  if (!std::filesystem::is_regular_file(status)) {
-    const char* what =
-        std::filesystem::is_directory(status) ? std::strerror(EISDIR) : "not a regular file";
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    const char* what = fs::is_directory(status) ? std::strerror(EISDIR) : "not a regular file";
     throw FileError(path, "", what, kWritable);
   }
-  const std::filesystem::path place = std::filesystem::canonical(path, ignored);
-  return place.empty() ? path : place.string();
+  fs::path place = path;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(place, ignored)); ++links) {
+    constexpr int kMostLinks = 40;
+    if (links == kMostLinks) throw FileError(path, "", std::strerror(ELOOP), kWritable);
+    place = place.parent_path() / fs::read_symlink(place, ignored);
+  }
+  return place.string();
 }
 
 // A rename is on the disk once its folder is. False, with errno, where the disk fails; where a
@@ -67,7 +71,10 @@ int open_locked(const std::string& name) {
     // Who held the lock before may have renamed or removed the file that was opened.
     const bool ours = failed == 0 && is_named(descriptor, name);
     if (ours && ::ftruncate(descriptor, 0) == 0) return descriptor;
-    if (ours) failed = errno;
+    if (ours) {
+      failed = errno;
+      ::unlink(name.c_str());
+    }
     ::close(descriptor);
     errno = failed;
     if (failed != 0) return -1;

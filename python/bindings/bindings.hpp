@@ -34,6 +34,8 @@ void bind_world(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_record(py::module_& m);
 void bind_trial(py::module_& m);
+void bind_trial_snapshot(py::module_& m);
+void bind_file(py::module_& m);
 
 /// A whole number from Python that devlearn refuses itself where it does not fit the C++ type.
 template <typename Tag>
@@ -61,6 +63,14 @@ class RecordObject : public py::object {
  public:
   using py::object::object;
   explicit RecordObject(py::object record) : py::object(std::move(record)) {}
+};
+
+/// devlearn.LearnerMemory, or what has its attributes.
+class MemoryObject : public py::object {
+ public:
+  using py::object::object;
+  explicit MemoryObject(py::object memory) : py::object(std::move(memory)) {}
+  static bool check_(py::handle) { return true; }
 };
 
 /// A turn at the simulator, without the GIL: other Python threads run meanwhile, but Box2D, with
@@ -249,6 +259,11 @@ struct type_caster<devlearn::python::Whole<Tag>> {
     if (!PyIndex_Check(source.ptr())) return false;
     throw devlearn::InvalidValue(Tag::quantity, str(source), Tag::allowed);
   }
+};
+
+template <>
+struct handle_type_name<devlearn::python::MemoryObject> {
+  static constexpr auto name = const_name("devlearn._types.LearnerMemory");
 };
 
 template <>

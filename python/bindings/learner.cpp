@@ -41,6 +41,53 @@ Learner from_bytes(const py::bytes& bytes) {
   return load_learner(reinterpret_cast<const std::byte*>(view.data()), view.size(), "bytes");
 }
 
+// A copy of an array's values, which must have this type and so many dimensions.
+template <typename T>
+std::vector<T> array_values(const py::handle& memory, const char* name, int dimensions = 1) {
+  const py::object given = memory.attr(name);
+  const auto array = py::array_t<T, py::array::c_style>::ensure(given);
+  if (!py::isinstance<py::array_t<T>>(given) || !array || array.ndim() != dimensions) {
+    PyErr_Clear();
+    throw InvalidValue(
+        "memory." + std::string(name),
+        py::isinstance<py::array>(given)
+            ? std::string(
+                  py::str("{} of shape {}").format(given.attr("dtype"), given.attr("shape")))
+            : std::string(py::repr(py::type::of(given))),
+        "an array of " + std::string(py::str(py::dtype::of<T>())) + " in " +
+            std::to_string(dimensions) + (dimensions == 1 ? " dimension" : " dimensions"));
+  }
+  return {array.data(), array.data() + array.size()};
+}
+
+MemoryObject memory_of(Idle learner) {
+  LearnerMemory all = learner->state().memory;
+  const auto situations = static_cast<py::ssize_t>(all.situation.size());
+  return MemoryObject(
+      py::module_::import("devlearn._types")
+          .attr("LearnerMemory")(
+              moved_array<std::int64_t>(std::move(all.situation)),
+              moved_array<std::uint16_t>(std::move(all.effective_count)),
+              moved_array<std::uint16_t>(std::move(all.ineffective_count)),
+              moved_array<std::uint16_t>(std::move(all.motions),
+                                         {situations, learner->config().motion_count}),
+              moved_array<double>(std::move(all.orientation)),
+              moved_array<std::uint32_t>(std::move(all.times_learned))));
+}
+
+Learner from_memory(const MemoryObject& memory, const std::optional<LearnerConfig>& config,
+                    Whole<SeedTag> seed) {
+  LearnerState state = Learner(config.value_or(LearnerConfig{}), seed.value).state();
+  LearnerMemory& all = state.memory;
+  all.situation = array_values<std::int64_t>(memory, "situation");
+  all.effective_count = array_values<std::uint16_t>(memory, "effective_count");
+  all.ineffective_count = array_values<std::uint16_t>(memory, "ineffective_count");
+  all.motions = array_values<std::uint16_t>(memory, "motions", 2);
+  all.orientation = array_values<double>(memory, "orientation");
+  all.times_learned = array_values<std::uint32_t>(memory, "times_learned");
+  return Learner(state);
+}
+
 void bind_config(py::module_& m) {
   py::class_<LearnerConfig> cls(
       m, "LearnerConfig",
@@ -247,6 +294,15 @@ void bind_learner(py::module_& m) {
           "The learner in a snapshot; it goes on equal to the bit. Raises FileError, saying what "
           "is "
           "wrong with the file.")
+      .def("memory", &memory_of,
+           "All that it remembers, as a LearnerMemory: a tuple of arrays, which are copies.")
+      .def_static("from_memory", &from_memory, py::arg("memory"), py::arg("config") = py::none(),
+                  py::arg("seed") = 0,
+                  "A learner that remembers what the arrays of a LearnerMemory say, which are "
+                  "copied; its draws begin anew from the seed. Raises InvalidValue where they "
+                  "break a law: lists that do not partition M, unexplored motions out of order, "
+                  "orientations outside [0, 1] or whose sum is not 1 within 1e-9, counts below 1, "
+                  "a situation twice, other types or shapes.")
       .def("to_bytes", &snapshot_bytes, "The snapshot as bytes.")
       .def_static("from_bytes", &from_bytes, py::arg("snapshot"),
                   "The learner in a snapshot's bytes. Raises FileError.")

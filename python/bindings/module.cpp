@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, m) {
 
   devlearn::python::bind_error(m);
   devlearn::python::bind_math(m);
+  devlearn::python::bind_file(m);
   devlearn::python::bind_random(m);
   devlearn::python::bind_situation(m);
   devlearn::python::bind_evaluation(m);
@@ -17,4 +18,5 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_robot(m);
   devlearn::python::bind_record(m);
   devlearn::python::bind_trial(m);
+  devlearn::python::bind_trial_snapshot(m);
 }

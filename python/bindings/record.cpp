@@ -34,6 +34,56 @@ py::dict columns(Record&& record) {
   return result;
 }
 
+namespace {
+
+template <typename Scalar, typename T>
+void copy_column(const py::object& record, const char* name, std::vector<T>& column) {
+  static_assert(sizeof(Scalar) == sizeof(T));
+  const py::object values = record.attr(name);
+  const auto array = py::array_t<Scalar, py::array::c_style>::ensure(values);
+  if (!array || !py::isinstance<py::array_t<Scalar>>(values)) {
+    PyErr_Clear();
+    throw InvalidValue("record." + std::string(name), py::repr(py::type::of(values)),
+                       "an array of " + std::string(py::str(py::dtype::of<Scalar>())));
+  }
+  const auto* const first = reinterpret_cast<const T*>(array.data());
+  column.assign(first, first + array.size());
+}
+
+}  // namespace
+
+Record record_of(const py::object& source) {
+  Record record;
+  copy_column<std::int32_t>(source, "round", record.round);
+  copy_column<std::int64_t>(source, "situation", record.situation);
+  copy_column<std::int32_t>(source, "motion", record.motion);
+  copy_column<std::uint8_t>(source, "kind", record.kind);
+  copy_column<double>(source, "sef", record.sef);
+  copy_column<double>(source, "smf", record.smf);
+  copy_column<double>(source, "smf_used", record.smf_used);
+  copy_column<bool>(source, "collided", record.collided);
+  copy_column<bool>(source, "arrived", record.arrived);
+  copy_column<double>(source, "goal_distance", record.goal_distance);
+  copy_column<double>(source, "clearance", record.clearance);
+  copy_column<std::uint8_t>(source, "event", record.event);
+  copy_column<std::int32_t>(source, "reduced", record.reduced);
+  copy_column<std::int64_t>(source, "explored_count", record.explored_count);
+  copy_column<std::int64_t>(source, "effective_count", record.effective_count);
+  copy_column<double>(source, "x", record.x);
+  copy_column<double>(source, "y", record.y);
+  copy_column<double>(source, "heading", record.heading);
+  const py::object rounds = source.attr("rounds");
+  for (const py::handle entry : rounds) {
+    record.rounds.push_back({entry["round"].cast<std::int32_t>(),
+                             entry["steps"].cast<std::int64_t>(), entry["arrived"].cast<bool>()});
+  }
+  if (const py::object echoes = source.attr("echoes"); !echoes.is_none()) {
+    copy_column<double>(source, "echoes", record.echoes);
+    record.sonar_count = echoes.attr("shape")[py::int_(1)].cast<int>();
+  }
+  return record;
+}
+
 void bind_record(py::module_& m) {
   PYBIND11_NUMPY_DTYPE(Round, round, steps, arrived);
 

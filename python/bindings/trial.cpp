@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "agents.hpp"
 #include "bindings.hpp"
 #include "record_columns.hpp"
 
@@ -77,6 +78,8 @@ class PythonAgent final : public Agent {
   py::object agent_;
 };
 
+}  // namespace
+
 std::shared_ptr<Agent> as_agent(const py::object& agent) {
   if (py::isinstance<RandomAgent>(agent)) return agent.cast<std::shared_ptr<RandomAgent>>();
   if (py::isinstance<Learner>(agent) && !py::hasattr(agent, "observe")) {
@@ -92,6 +95,8 @@ py::object agent_of(const Trial& trial) {
   if (const auto learner = trial.learner()) return py::cast(learner);
   return py::cast(std::dynamic_pointer_cast<RandomAgent>(trial.agent()));
 }
+
+namespace {
 
 RecordObject as_record(const Trial& trial, Record&& record) {
   return RecordObject(py::module_::import("devlearn.record")
@@ -208,7 +213,10 @@ void bind_messages(py::module_& m) {
   py::class_<RandomAgent, std::shared_ptr<RandomAgent>>(
       m, "RandomAgent", "Uniformly random motions: what learning is measured against.")
       .def(py::init([](Whole<SeedTag> seed) { return std::make_shared<RandomAgent>(seed.value); }),
-           py::arg("seed") = 0);
+           py::arg("seed") = 0)
+      .def(py::pickle(
+          [](const RandomAgent& self) { return self.random().state(); },
+          [](const Random::State& state) { return std::make_shared<RandomAgent>(Random(state)); }));
 }
 
 }  // namespace
@@ -281,6 +289,17 @@ void bind_trial(py::module_& m) {
           py::arg("echoes") = false, py::arg("rounds_only") = false,
           "`rounds` new rounds from the start pose, each until the target is reached, or failed "
           "(arrived False) after `step_limit` steps.")
+      .def(
+          "finish_round",
+          [](py::object& self, Whole<StepsTag> steps, bool echoes) {
+            return run_phase(self, echoes,
+                             [&](Trial& trial, Record& record, const RunOptions& run) {
+                               trial.finish_round(record, steps.value, run);
+                             });
+          },
+          py::arg("steps"), py::kw_only(), py::arg("echoes") = false,
+          "Goes on with the present round until the target is reached, for at most `steps` steps: "
+          "what finishes a round of path learning that was interrupted.")
       .def("begin_round", &Trial::begin_round, py::call_guard<Turn>(),
            "Puts the robot at the start pose for a new round.")
       .def(

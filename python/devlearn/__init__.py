@@ -50,7 +50,7 @@ if TYPE_CHECKING:
         shortest_path,
         wrapped_heading,
     )
-    from ._types import Pose
+    from ._types import LearnerMemory, Pose
     from ._worlds import worlds
     from .errors import FileError, InvalidValue
     from .record import Record
@@ -67,6 +67,7 @@ __all__ = [
     "Kind",
     "Learner",
     "LearnerConfig",
+    "LearnerMemory",
     "MemoryUse",
     "Observation",
     "Outcome",

@@ -2,6 +2,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+import numpy.typing as npt
+
 
 class Pose(NamedTuple):
     """The robot's place and heading: x, y [m], heading [degrees, counter-clockwise from x]."""
@@ -9,3 +12,25 @@ class Pose(NamedTuple):
     x: float
     y: float
     heading: float
+
+
+class LearnerMemory(NamedTuple):
+    """All that a learner remembers, as arrays: S situations, N motions, E effective mappings.
+
+    ``motions[i]`` holds each motion once: M_i (the first ``effective_count[i]``), then the
+    ineffective ones (the next ``ineffective_count[i]``), then RM_i, ascending. ``orientation`` and
+    ``times_learned`` go through the effective motions, situation by situation.
+    """
+
+    situation: npt.NDArray[np.int64]
+    """Ids, in the order they were first experienced: (S,)."""
+    effective_count: npt.NDArray[np.uint16]
+    """n_i: (S,)."""
+    ineffective_count: npt.NDArray[np.uint16]
+    """How many of M-bar_i: (S,)."""
+    motions: npt.NDArray[np.uint16]
+    """Motion indices: (S, N)."""
+    orientation: npt.NDArray[np.float64]
+    """o_ij: (E,); each situation's sum is 1."""
+    times_learned: npt.NDArray[np.uint32]
+    """n_ij, at least 1: (E,)."""

@@ -18,7 +18,8 @@ _WITHOUT_PLOTS = "no figures: {}; pip install 'devlearn[plots]' brings what they
 _RUN_DESCRIPTION = """\
 One experiment: two rounds of free learning, then path learning by rounds until
 the target is reached. Prints what came of it and writes the records, a table
-of the rounds and, with matplotlib, a picture."""
+of the rounds and, with matplotlib, a picture. Its state is saved as it goes:
+stopped by Ctrl-C or a kill, it goes on from there when called again."""
 _RUN_EPILOG = """\
 examples:
   devlearn run paper
@@ -113,6 +114,10 @@ def _parser() -> argparse.ArgumentParser:
         "--step-limit", type=int, default=10_000, metavar="N",
         help="steps after which a round of path learning has failed (default: %(default)s)",
     )  # fmt: skip
+    run.add_argument(
+        "--save-every", type=int, metavar="N",
+        help="save the state every N steps (default: every ten seconds or so)",
+    )  # fmt: skip
     run.add_argument("--echoes", action="store_true", help="record the sonars' echoes, too")
     run.add_argument("--csv", action="store_true", help="write the records as CSV, too")
     run.add_argument(
@@ -173,45 +178,42 @@ def _say(text: str) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from . import _core, experiments, measures
+    from . import _core, experiments, measures, survival
     from .errors import InvalidValue
     from .record import written_aside
     from .runs import made_folder
 
     # At once, not when they are needed.
-    for name, least in (("steps", 0), ("rounds", 0), ("step_limit", 1)):
-        if getattr(options, name) < least:
-            option = "--" + name.replace("_", "-")
-            raise InvalidValue(option, getattr(options, name), f"at least {least}")
+    for name, least in (("steps", 0), ("rounds", 0), ("step_limit", 1), ("save_every", 1)):
+        value = getattr(options, name)
+        if value is not None and value < least:
+            raise InvalidValue("--" + name.replace("_", "-"), value, f"at least {least}")
     world = _core.World.load(options.world)
     config = experiments.preset(options.preset)
     if options.config is not None:
         config = _read_config(options.config)
     config = _changed(config, options.set)
 
-    trial = _core.Trial(world, config, options.seed)
+    _core.Trial(world, config, options.seed)  # refuses what cannot run
     folder = made_folder(options.output)
-    records: dict[str, Record] = {}
-
-    def write() -> None:
-        for name, record in records.items():
-            record.save(folder / f"{name}.npz")
-            if options.csv:
-                record.to_csv(folder / f"{name}.csv")
-
+    plan = survival.Plan(options.steps, options.rounds, options.step_limit, options.echoes)
     try:
-        records["free_1"] = trial.free_learning(options.steps, echoes=options.echoes)
-        records["free_2"] = trial.free_learning(options.steps, echoes=options.echoes)
-        records["paths"] = trial.path_learning(
-            options.rounds, options.step_limit, echoes=options.echoes
+        trial, whole = survival.run_to_the_end(
+            folder, world, config, options.seed, plan, options.save_every
         )
     except KeyboardInterrupt:
-        if trial.interrupted is not None:
-            records["stopped"] = trial.interrupted
-        write()
-        print(f"what is finished is in {folder}", file=sys.stderr)
+        print(f"what is finished is kept in {folder}; the same command goes on from there",
+              file=sys.stderr)  # fmt: skip
         raise
-    write()
+    records = {
+        "free_1": whole.part(slice(0, 1)),
+        "free_2": whole.part(slice(1, 2)),
+        "paths": whole.part(slice(2, None)),
+    }
+    for name, record in records.items():
+        record.save(folder / f"{name}.npz")
+        if options.csv:
+            record.to_csv(folder / f"{name}.csv")
     paths = records["paths"]
 
     print(f"world {world.name or options.world}, seed {options.seed}")
@@ -234,6 +236,7 @@ def _run(options: argparse.Namespace) -> int:
         file.write("round,steps,arrived\n")
         file.writelines(f"{r['round']},{r['steps']},{int(r['arrived'])}\n" for r in paths.rounds)
     _draw(folder, trial, paths)
+    survival.forget(folder)
     print(f"written: {folder}{os.sep}")
     return 0
 

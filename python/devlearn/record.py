@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import csv
 import hashlib
+import io
 import json
 import os
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import IO, Any
@@ -127,16 +127,37 @@ class Record:
     def concatenate(cls, records: Sequence[Record]) -> Record:
         """Records of one trial, one after the other, as one; the provenance is the first's.
 
+        Where one goes on with the round and from the pose that the one before ended with, that
+        round becomes one, as if it had never been stopped.
+
         Raises InvalidValue for no records, or where only some hold echoes.
         """
         if not records:
             raise InvalidValue("records", "none", "at least one")
-        names = [*STEP_COLUMNS, *POSE_COLUMNS, "rounds"]
-        if any(record.echoes is not None for record in records):
-            if any(record.echoes is None for record in records):
-                raise InvalidValue("records", "echoes in some only", "echoes in all or in none")
-            names.append("echoes")
-        columns = {name: np.concatenate([getattr(r, name) for r in records]) for name in names}
+        echoes = [record.echoes for record in records if record.echoes is not None]
+        if 0 < len(echoes) < len(records):
+            raise InvalidValue("records", "echoes in some only", "echoes in all or in none")
+        columns = {n: np.concatenate([getattr(r, n) for r in records]) for n in STEP_COLUMNS}
+        if echoes:
+            columns["echoes"] = np.concatenate(echoes)
+        poses = {n: np.concatenate([getattr(r, n) for r in records]) for n in POSE_COLUMNS}
+        rounds = np.concatenate([record.rounds for record in records])
+        # Where a record begins: which entry, and which pose.
+        entries = np.cumsum([0, *(len(record.rounds) for record in records)])
+        firsts = np.cumsum([0, *(len(record.x) for record in records)])
+        goes_on = {
+            (entry, pose)
+            for entry, pose in zip(entries.tolist(), firsts.tolist())
+            if 0 < entry < len(rounds)
+            and rounds["round"][entry] == rounds["round"][entry - 1]
+            and all(np.array_equal(p[pose : pose + 1], p[pose - 1 : pose]) for p in poses.values())
+        }
+        for entry, _ in sorted(goes_on, reverse=True):
+            rounds["steps"][entry - 1] += rounds["steps"][entry]
+            rounds["arrived"][entry - 1] |= rounds["arrived"][entry]
+        columns["rounds"] = np.delete(rounds, [entry for entry, _ in goes_on])
+        twice = [pose for _, pose in goes_on if pose > 0]  # but for records of rounds only
+        columns |= {n: np.delete(p, twice) for n, p in poses.items()}
         return cls(columns, records[0].provenance)
 
     def __len__(self) -> int:
@@ -182,6 +203,24 @@ class Record:
         poses = slice(steps.start + self._entry(i), steps.stop + self._entry(i) + 1)
         return np.column_stack([self.x[poses], self.y[poses], self.heading[poses]])
 
+    def part(self, entries: slice) -> Record:
+        """The record of some entries of ``rounds`` alone, such as ``slice(2, None)``.
+
+        Raises InvalidValue for a record of rounds only.
+        """
+        self._require_steps()
+        first, last, stride = entries.indices(len(self.rounds))
+        if stride != 1:
+            raise InvalidValue("entries", entries, "a slice of neighbours")
+        last = max(first, last)
+        start, stop = (int(self.rounds["steps"][:i].sum()) for i in (first, last))
+        columns = {name: getattr(self, name)[start:stop] for name in STEP_COLUMNS}
+        columns |= {n: getattr(self, n)[start + first : stop + last] for n in POSE_COLUMNS}
+        columns["rounds"] = self.rounds[first:last]
+        if self.echoes is not None:
+            columns["echoes"] = self.echoes[start:stop]
+        return Record(columns, self.provenance)
+
     def _require_steps(self) -> None:
         if self.rounds_only:
             raise InvalidValue("record", "rounds only", "one that holds steps")
@@ -205,14 +244,21 @@ class Record:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Record:
-        """Read what ``save`` wrote. Raises FileError."""
+        """Read what ``save`` wrote, or the record in a trial's snapshot. Raises FileError."""
         name = os.fsdecode(path)
         try:
-            with np.load(name, allow_pickle=False) as file:
-                columns = {key: file[key] for key in file.files}
+            with open(name, "rb") as file:
+                begin = file.read(9)
+                if begin[8:] == b"{":  # where a snapshot's header begins
+                    return cls._of_snapshot(begin + file.read(), name)
+                file.seek(0)
+                with np.load(file, allow_pickle=False) as columns_in_file:
+                    columns = dict(columns_in_file)
             header = json.loads(str(columns.pop("header")))
             found, version = header["format"], header["version"]
             provenance = header["provenance"]
+        except FileError:
+            raise
         except FileNotFoundError as error:
             raise FileError(name, "", "no such file", "a record saved by devlearn") from error
         except Exception as error:  # zipfile, zlib, numpy and json each have their own
@@ -231,6 +277,21 @@ class Record:
             return cls(columns, provenance)
         except InvalidValue as error:
             raise FileError(name, error.quantity, error.value, error.allowed) from error
+
+    @classmethod
+    def _of_snapshot(cls, content: bytes, name: str) -> Record:
+        columns, world, config, seed, note = _core.record_in_snapshot(content, name)
+        try:
+            provenance = json.loads(note)
+        except (ValueError, RecursionError):
+            provenance = None
+        if not isinstance(provenance, dict):
+            # Saved by C++, where records have no provenance: the trial's then.
+            size = int.from_bytes(content[:8], "little")
+            entries = json.loads(content[8 : 8 + size])["__metadata__"]
+            provenance = provenance_of(world, config, seed, None)
+            provenance |= {k: entries[k] for k in ("devlearn", "commit", "box2d", "agent")}
+        return cls(columns, provenance)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write one row a step: the step columns, the pose after it, and the echoes if recorded.
@@ -282,38 +343,20 @@ def written_aside(path: str | os.PathLike[str], mode: str) -> Iterator[IO[Any]]:
     name = os.fsdecode(path)
     if "\0" in name:
         raise FileError(name, "", "a name that holds a null", "a file that can be written")
-    text: dict[str, Any] = {} if "b" in mode else {"encoding": "utf-8", "newline": ""}
-    aside = ""
+    content = io.BytesIO()
+    file: IO[Any] = content
+    if "b" not in mode:
+        file = io.TextIOWrapper(content, encoding="utf-8", newline="", write_through=True)
+    yield file
+    file.flush()
+    if not os.path.exists(name) or os.path.isfile(name):
+        _core.write_file(name, content.getvalue())
+        return
     try:
-        if os.path.exists(name) and not os.path.isfile(name):
-            with open(name, mode, **text) as file:
-                yield file
-            return
-        place = os.path.realpath(name)  # a link goes on pointing at the file
-        folder, base = os.path.split(place)
-        handle, aside = tempfile.mkstemp(prefix=f".{base}.", dir=folder)
-        with os.fdopen(handle, mode, **text) as file:
-            yield file
-            file.flush()
-            os.fsync(file.fileno())
-        os.chmod(aside, 0o666 & ~_umask())
-        os.replace(aside, place)
-        aside = ""
+        with open(name, "wb") as there:
+            there.write(content.getbuffer())
     except OSError as error:
-        if isinstance(error, FileError):
-            raise
-        raise FileError(
-            name, "", error.strerror or str(error), "a file that can be written"
-        ) from error
-    finally:
-        if aside and os.path.exists(aside):
-            os.unlink(aside)
-
-
-def _umask() -> int:
-    current = os.umask(0)
-    os.umask(current)
-    return current
+        raise FileError(name, "", error.strerror, "a file that can be written") from error
 
 
 def _holds_rounds_only(rounds: npt.NDArray[np.void], x: npt.NDArray[np.float64]) -> bool:

@@ -8,14 +8,24 @@ import re
 import signal
 import subprocess
 import sys
-import threading
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import devlearn
 import numpy as np
 import pytest
-from devlearn import Record, TrialConfig, World, _core, cli, experiments, measures, runs
+from conftest import differences
+from devlearn import (
+    Record,
+    TrialConfig,
+    World,
+    _core,
+    cli,
+    experiments,
+    measures,
+    runs,
+    survival,
+)
 from devlearn.claims import claims
 
 SHORT = ["--steps", "300", "--rounds", "3", "--step-limit", "200"]
@@ -199,22 +209,86 @@ def test_run_needs_no_matplotlib(tmp_path, without_matplotlib):
     assert not list((tmp_path / "out").glob("overview.*"))
 
 
-def test_ctrl_c_in_a_run_keeps_its_records(tmp_path, monkeypatch, capsys):
-    class Interrupted(_core.Trial):
-        def path_learning(self, *arguments, **more):
-            threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
-            return super().path_learning(*arguments, **more)
+LONG = ["run", "paper", "--steps", "3000", "--rounds", "40", "--step-limit", "500"]
 
-    monkeypatch.setattr(_core, "Trial", Interrupted)
-    line = ["run", "paper", "--steps", "2000", "--rounds", "1000000", "--output", str(tmp_path)]
-    assert cli.main(line) == 130
-    assert capsys.readouterr().err == f"what is finished is in {tmp_path}\ndevlearn: stopped\n"
-    assert len(Record.load(tmp_path / "free_1.npz")) == 2000
-    assert len(Record.load(tmp_path / "free_2.npz")) == 2000
-    stopped = Record.load(tmp_path / "stopped.npz")
-    assert stopped.rounds["round"][0] == 3
-    assert len(stopped) > 1000
-    assert not (tmp_path / "paths.npz").exists()
+
+def stopped_by_ctrl_c(line, monkeypatch, rounds):
+    """Runs a line until that round has begun, and then sends Ctrl-C once."""
+
+    advance = survival._advance
+
+    def stopped(trial, *arguments):
+        part = advance(trial, *arguments)
+        if trial.round == rounds:
+            os.kill(os.getpid(), signal.SIGINT)
+        return part
+
+    with monkeypatch.context() as patch:
+        patch.setattr(survival, "_advance", stopped)
+        assert cli.main(line) == 130
+
+
+def test_a_run_stopped_by_ctrl_c_goes_on_when_called_again(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(cli, "_draw", lambda *_: None)
+    line = [*LONG, "--echoes", "--output", str(tmp_path / "stopped")]
+    state = tmp_path / "stopped" / "state.safetensors"
+    steps = 0
+    for rounds in (1, 2, 9):
+        stopped_by_ctrl_c(line, monkeypatch, rounds)
+        assert capsys.readouterr().err == (
+            f"what is finished is kept in {tmp_path / 'stopped'}; "
+            "the same command goes on from there\ndevlearn: stopped\n"
+        )
+        record = Record.load(state)
+        assert steps < len(record)
+        assert len(record.rounds) == rounds
+        assert devlearn.Trial.load(state).round == rounds
+        steps = len(record)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert cli.main(line) == 0
+    assert not state.exists()
+    assert cli.main([*LONG, "--echoes", "--output", str(tmp_path / "unbroken")]) == 0
+    for name in ("free_1", "free_2", "paths"):
+        a, b = (Record.load(tmp_path / n / f"{name}.npz") for n in ("stopped", "unbroken"))
+        assert differences(a, b) == []
+        assert a.provenance == b.provenance
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (["--seed", "2"], "seed: got an unfinished run with 1; expected 2; finish that run"),
+        (["--steps", "2999"], "run.steps: got an unfinished run with 3000; expected 2999; finish"),
+        (["--echoes"], "run.echoes: got an unfinished run with False; expected True; finish"),
+        (["--set", "learner.sigma=0.5"], "config.learner.sigma: got an unfinished run with 0.3"),
+        (["--preset", "step5"], "config.learner.on_negative: got an unfinished run with abandon"),
+    ],
+)
+def test_run_refuses_to_go_on_with_another_run(tmp_path, monkeypatch, capsys, options, says):
+    stopped_by_ctrl_c([*LONG, "--output", str(tmp_path)], monkeypatch, 2)
+    capsys.readouterr()
+    before = (tmp_path / "state.safetensors").read_bytes()
+    line = refusal(capsys, *LONG, *options, "--output", tmp_path)
+    assert says in line
+    assert "remove the file, or choose another --output" in line
+    assert (tmp_path / "state.safetensors").read_bytes() == before
+
+
+def test_run_refuses_to_go_on_in_another_world_or_with_other_code(tmp_path, monkeypatch, capsys):
+    stopped_by_ctrl_c([*LONG, "--output", str(tmp_path)], monkeypatch, 2)
+    capsys.readouterr()
+    line = ["run", "office", *LONG[2:], "--output", tmp_path]
+    assert "world.name: got an unfinished run with" in refusal(capsys, *line)
+    monkeypatch.setattr(survival, "code_fingerprint", lambda: "other code")
+    assert "an unfinished run with another build" in refusal(capsys, *LONG, "--output", tmp_path)
+
+
+def test_run_refuses_a_state_that_is_damaged(tmp_path, monkeypatch, capsys):
+    state = tmp_path / "state.safetensors"
+    stopped_by_ctrl_c([*LONG, "--output", str(tmp_path)], monkeypatch, 2)
+    capsys.readouterr()
+    state.write_bytes(state.read_bytes()[:-1])
+    assert str(state) in refusal(capsys, *LONG, "--output", tmp_path)
 
 
 def test_a_reader_who_leaves_is_no_error_of_ours(tmp_path):
@@ -236,6 +310,7 @@ def test_a_reader_who_leaves_is_no_error_of_ours(tmp_path):
         (["--steps", -1], "--steps: got -1; expected at least 0"),
         (["--rounds", -1], "--rounds: got -1; expected at least 0"),
         (["--step-limit", 0], "--step-limit: got 0; expected at least 1"),
+        (["--save-every", 0], "--save-every: got 0; expected at least 1"),
         (["--steps", 10**30], "expected a whole number"),
         (["--seed", -1], "seed: got -1; expected"),
         (["--seed", 2**64], "seed: got 18446744073709551616; expected"),

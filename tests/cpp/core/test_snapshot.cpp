@@ -1,14 +1,18 @@
 #include <doctest/doctest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "devlearn/error.hpp"
 #include "devlearn/random.hpp"
 #include "devlearn/snapshot.hpp"
+#include "kept_snapshots.hpp"
+#include "snapshot_bytes.hpp"
 
 using namespace devlearn;
 
@@ -115,6 +119,30 @@ TEST_CASE("file, stream and memory hold the same snapshot") {
   std::remove(path.c_str());
 }
 
+TEST_CASE("learners that earlier versions saved have the future that they had then") {
+  const auto future = [](Learner learner) {
+    Random world(99, "world");
+    std::string text;
+    for (int i = 0; i < 300; ++i) {
+      const auto situation = static_cast<SituationId>(world.index(40)) * 1000003;
+      const Choice choice = learner.choose(situation);
+      const Development development = learner.learn(world.uniform() * 4.0 - 2.0);
+      for (const long long number :
+           {static_cast<long long>(situation), static_cast<long long>(choice.motion),
+            static_cast<long long>(choice.kind), static_cast<long long>(development.event),
+            static_cast<long long>(learner.explored_count()),
+            static_cast<long long>(learner.effective_count())}) {
+        text += std::to_string(number) + " ";
+      }
+      text.back() = '\n';
+    }
+    return text;
+  };
+  check_kept_snapshots(
+      "learner", [](const std::string& path) { save(experienced(nine_motions()), path); },
+      [&](const std::string& path) { return future(load_learner(path)); });
+}
+
 TEST_CASE("a snapshot cut off anywhere is refused") {
   const std::vector<std::byte> bytes = to_bytes(experienced());
   for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 64) {
@@ -158,6 +186,131 @@ TEST_CASE("a file that is none of ours is refused with what is wrong") {
   CHECK(with_header(keys + "\"\":\"\"}}").find("at most 1000 keys") != std::string::npos);
   // What it holds is not repeated at length.
   CHECK(with_header("{\"" + std::string(50000, 'a') + "\":{}}").size() < 1000);
+}
+
+TEST_CASE("a snapshot that lies, its checksum mended, is refused, naming the lie") {
+  const SnapshotBytes good(to_bytes(experienced()));
+  REQUIRE(refusal(good.mended()) == "");
+  const auto told = [&](const auto& lie) {
+    SnapshotBytes bytes = good;
+    lie(bytes);
+    const std::string error = refusal(bytes.mended());
+    CHECK(error.rfind("it: ", 0) == 0);
+    return error.substr(4, error.find(": got") - 4);
+  };
+  using B = SnapshotBytes&;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string end = std::to_string(good.data.size());
+
+  SUBCASE("about versions and formats") {
+    CHECK(told([](B b) { b.set_entry("format", "devlearn-trial"); }) == "format");
+    CHECK(told([](B b) { b.set_entry("format", std::string(5000, 'x')); }) == "format");
+    CHECK(told([](B b) { b.set_entry("format_version", "2"); }) == "format_version");
+    CHECK(told([](B b) { b.set_entry("format_version", "99999999999999999999"); }) ==
+          "format_version");
+    CHECK(told([](B b) { b.set_entry("checksum", "0"); }) == "checksum");
+    CHECK(told([](B b) { b.replace("\"format\"", "\"tamrof\""); }) == "__metadata__.format");
+    CHECK(told([](B b) { b.replace("__metadata__", "__atadatem__"); }).find("header") == 0);
+  }
+  SUBCASE("about where arrays lie") {
+    CHECK(told([](B b) { b.replace("\"orientation\"", "\"orientatiom\""); }) == "orientation");
+    CHECK(told([](B b) { b.replace("\"I64\"", "\"U64\""); }) == "situation");
+    CHECK(told([](B b) { b.replace("\"I64\"", "\"F16\""); }) == "situation.dtype");
+    CHECK(told([&](B b) {
+            b.replace("," + end + "]", ",1152921504606846976]");
+          }).find(".data_offsets") != std::string::npos);
+    CHECK(told([](B b) {
+            b.replace("\"shape\":[40]", "\"shape\":[1152921504606846976]");
+          }).find(".shape") != std::string::npos);
+    CHECK(told([](B b) { b.replace("[40,5]", "[18446744073709551615,18446744073709551615]"); }) ==
+          "motions.shape");
+    CHECK(told([](B b) { b.replace("[40,5]", "[200]"); }) == "motions");
+    CHECK(told([](B b) { b.replace("[40,5]", "[40,5,0]"); }) == "motions.shape");
+    // A hole at the end, and one in the middle.
+    CHECK(told([](B b) { b.data.resize(b.data.size() + 8); }).find("got 8 bytes") == 0);
+    CHECK(told([](B b) {
+            const std::size_t at = b.header.find("\"random\":");
+            b.header.erase(at - 1, b.header.find('}', at) - at + 2);
+          }).find(".data_offsets") != std::string::npos);
+    // Two that overlap.
+    CHECK(told([](B b) {
+            b.header.insert(b.header.rfind('}'),
+                            ",\"too\":{\"dtype\":\"U8\",\"shape\":[9],\"data_offsets\":[3,12]}");
+          }).find(".data_offsets") != std::string::npos);
+    CHECK(told([](B b) { b.replace("\"shape\":[4]", "\"shape\":[4.0]"); }).find("header") == 0);
+    CHECK(told([](B b) { b.replace("\"shape\":[4]", "\"shape\":[-4]"); }).find("header") == 0);
+    CHECK(told([](B b) { b.replace("\"shape\":[4]", "\"shape\":[[4]]"); }).find("header") == 0);
+    CHECK(told([](B b) {
+            b.replace("\"shape\":[4]", "\"shape\":" + std::string(100000, '['));
+          }).find("header") == 0);
+  }
+  SUBCASE("about sizes") {
+    CHECK(told([](B b) { b.set_entry("situations", "1152921504606846976"); }) == "situation");
+    CHECK(told([](B b) { b.set_entry("situations", "-1"); }) == "situations");
+    CHECK(told([](B b) { b.set_entry("effective", "1152921504606846976"); }) == "orientation");
+    CHECK(told([](B b) { b.set_entry("motion_count", "65535"); }) == "motions");
+    CHECK(told([](B b) { b.set_entry("motion_count", "65536"); }) == "LearnerConfig.motion_count");
+  }
+  SUBCASE("about the method") {
+    CHECK(told([](B b) { b.set_entry("eta", "nan"); }) == "LearnerConfig.eta");
+    CHECK(told([](B b) { b.set_entry("eta", "0.05 "); }) == "eta");
+    CHECK(told([](B b) { b.set_entry("on_negative", "forget"); }) == "on_negative");
+    CHECK(told([](B b) { b.set("orientation", 0, nan); }) == "memory.orientation[0]");
+    CHECK(told([](B b) { b.set("orientation", 1, 1.5); }) == "memory.orientation[1]");
+    CHECK(told([](B b) { b.set("orientation", 0, 0.001); }).find("memory.orientation") == 0);
+    CHECK(told([](B b) { b.set("motions", 7, std::uint16_t{9}); }) == "memory.motions[1]");
+    CHECK(told([](B b) { b.set("effective_count", 2, std::uint16_t{60000}); }).find("memory.") ==
+          0);
+    CHECK(told([](B b) { b.set("times_learned", 3, std::uint32_t{0}); }) ==
+          "memory.times_learned[3]");
+    CHECK(told([](B b) { b.set("situation", 4, std::int64_t{-7}); }) == "memory.situation[4]");
+    CHECK(told([](B b) {
+            for (std::size_t i = 0; i < 4; ++i) b.set("random", i, std::uint64_t{0});
+          }) == "random");
+  }
+}
+
+TEST_CASE("a learner in hand is as it was after a refusal") {
+  Learner learner = experienced();
+  const std::vector<std::byte> before = to_bytes(learner);
+  const std::string path = std::string(DEVLEARN_BINARY_DIR) + "/cut.safetensors";
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(before.data()),
+             static_cast<std::streamsize>(before.size() / 2));
+  CHECK_THROWS_AS(learner = load_learner(path), FileError);
+  CHECK(to_bytes(learner) == before);
+  std::remove(path.c_str());
+}
+
+TEST_CASE("a file that a kill left on the side is written anew, and gone after the next save") {
+  const std::string path = std::string(DEVLEARN_BINARY_DIR) + "/killed.safetensors";
+  const std::string side = path + ".devlearn-tmp";
+  std::ofstream(side) << std::string(1000000, 'x');
+  const Learner learner = experienced();
+  save(learner, path);
+  CHECK_FALSE(std::ifstream(side).good());
+  CHECK(to_bytes(load_learner(path)) == to_bytes(learner));
+  std::remove(path.c_str());
+}
+
+TEST_CASE("several savers to one path at once leave one whole file and nothing on the side") {
+  const std::string path = std::string(DEVLEARN_BINARY_DIR) + "/shared.safetensors";
+  std::vector<std::thread> savers;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    savers.emplace_back([&path, seed] {
+      Learner learner(LearnerConfig{}, seed);
+      Random world(seed, "world");
+      for (int i = 0; i < 25; ++i) {
+        live(learner, world, 10);
+        save(learner, path);
+        if (load_learner(path).seed() > 3) std::abort();  // throws for a file that is not whole
+      }
+    });
+  }
+  for (std::thread& saver : savers) saver.join();
+  CHECK(load_learner(path).situations_experienced() > 0);
+  CHECK_FALSE(std::ifstream(path + ".devlearn-tmp").good());
+  std::remove(path.c_str());
 }
 
 TEST_CASE("a state that breaks a law of the method is refused, naming it") {
@@ -214,4 +367,6 @@ TEST_CASE("a snapshot that cannot be written leaves the previous one whole") {
   CHECK_THROWS_AS(save(experienced(), folder + "/learner"), FileError);
   CHECK_THROWS_AS(save(experienced(), "/dev/full"), FileError);
   CHECK_THROWS_AS(load_learner(folder), FileError);
+  CHECK_THROWS_AS(load_learner(std::string(DEVLEARN_BINARY_DIR)), FileError);
+  CHECK_THROWS_AS(load_learner("/dev/zero"), FileError);
 }

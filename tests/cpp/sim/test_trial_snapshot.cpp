@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "../core/kept_snapshots.hpp"
 #include "../core/refusal.hpp"
 #include "../core/snapshot_bytes.hpp"
 #include "devlearn/snapshot.hpp"
@@ -228,6 +229,54 @@ TEST_CASE("file, stream and memory hold the same snapshot, its record and its no
     CHECK(to_bytes(snapshot.trial, {&*snapshot.record, true, snapshot.note}) == bytes);
   }
   std::remove(path.c_str());
+}
+
+// A world in which the robot touches nothing, so that Box2D has no say in the future.
+Trial in_open_world() {
+  WorldDef def;
+  def.name = "open";
+  def.width = def.height = 12.0;
+  def.start = {5.0, 5.0, 0.0};
+  def.target = {6.5, 6.0};
+  def.obstacles = {Circle{{4.6, 6.8}, 0.2}, Rectangle{{8.0, 4.2}, 0.4, 0.2, 30.0},
+                   Polygon{{{8.5, 7.5}, {9.5, 7.4}, {8.9, 8.2}}}};
+  TrialConfig config;
+  config.evaluation = {20.0, 0.3, 3.0, 0.5, 1.5};
+  return Trial(World(def), config, 2);
+}
+
+TEST_CASE("trials that earlier versions saved have the past and the future that they had then") {
+  const auto future = [](const std::string& path) {
+    TrialSnapshot snapshot = load_trial(path);
+    REQUIRE(snapshot.record.has_value());
+    Record& record = *snapshot.record;
+    const auto past = static_cast<std::ptrdiff_t>(record.steps());
+    snapshot.trial.run(record, 100);
+    snapshot.trial.path_learning(record, 2, 60);
+    CHECK(std::count(record.collided.begin() + past, record.collided.end(), 1) == 0);
+    std::string text;
+    for (std::size_t i = 0; i < record.steps(); ++i) {
+      char line[200];
+      std::snprintf(line, sizeof line, "%d %lld %d %d %lld %.17g %.17g\n", record.round[i],
+                    static_cast<long long>(record.situation[i]), record.motion[i], record.event[i],
+                    static_cast<long long>(record.effective_count[i]), record.smf[i],
+                    record.clearance[i]);
+      text += line;
+    }
+    for (const Round& round : record.rounds) {
+      text += std::to_string(round.round) + " " + std::to_string(round.steps) + " " +
+              std::to_string(round.arrived) + "\n";
+    }
+    return text;
+  };
+  const auto past = [](const std::string& path) {
+    Trial trial = in_open_world();
+    trial.free_learning(150);
+    Record record;
+    trial.free_learning(record, 40, {true, {}});
+    save(trial, path, {&record, true, "kept"});
+  };
+  check_kept_snapshots("trial", past, future);
 }
 
 TEST_CASE("a record that does not fit is not saved") {

@@ -1,0 +1,138 @@
+#include "devlearn/trial_snapshot.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "agents.hpp"
+#include "bindings.hpp"
+#include "record_columns.hpp"
+
+namespace devlearn::python {
+namespace {
+
+/// What Python asks to be saved, as C++ does; it is made with the GIL held.
+class Saving {
+ public:
+  Saving(const Trial& trial, const py::object& record, bool without_agent) {
+    const py::object agent = agent_of(trial);
+    if (!without_agent && !py::isinstance<Learner>(agent) && !py::isinstance<RandomAgent>(agent)) {
+      throw InvalidValue("agent", py::repr(agent),
+                         "a Learner or RandomAgent; save an agent of your own yourself, the trial "
+                         "with without_agent=True, and give it to load as agent=");
+    }
+    if (const auto learner = trial.learner()) const Idle not_in_a_run(*learner);
+    options_.agent = !without_agent;
+    if (record.is_none()) return;
+    const py::module_ ours = py::module_::import("devlearn.record");
+    if (!py::isinstance(record, ours.attr("Record"))) {
+      throw InvalidValue("record", py::repr(record), "None or a Record");
+    }
+    record_ = record_of(record);
+    options_.record = &record_;
+    const py::object dumps = py::module_::import("json").attr("dumps");
+    options_.note = dumps(record.attr("provenance")).cast<std::string>();
+  }
+  Saving(const Saving&) = delete;
+  Saving& operator=(const Saving&) = delete;
+
+  const SaveOptions& options() const { return options_; }
+
+ private:
+  Record record_;
+  SaveOptions options_;
+};
+
+py::bytes snapshot_bytes(const Trial& trial, const py::object& record, bool without_agent) {
+  const Saving saving(trial, record, without_agent);
+  std::vector<std::byte> bytes;
+  {
+    const Turn turn;
+    bytes = to_bytes(trial, saving.options());
+  }
+  return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+std::shared_ptr<Agent> given_agent(const py::object& agent) {
+  return agent.is_none() ? nullptr : as_agent(agent);
+}
+
+TrialSnapshot from_bytes(const py::bytes& bytes, std::shared_ptr<Agent> agent,
+                         const std::string& source) {
+  const std::string_view view = bytes;
+  const Turn turn;
+  return load_trial(reinterpret_cast<const std::byte*>(view.data()), view.size(), std::move(agent),
+                    source);
+}
+
+}  // namespace
+
+void bind_trial_snapshot(py::module_& m) {
+  m.def(
+      "record_in_snapshot",
+      [](const py::bytes& bytes, const std::string& source) -> py::object {
+        // A record does not depend on the agent.
+        TrialSnapshot snapshot = from_bytes(bytes, std::make_shared<RandomAgent>(0), source);
+        if (!snapshot.record) throw FileError(source, "record", "nothing", "a record");
+        return py::make_tuple(columns(std::move(*snapshot.record)), snapshot.trial.world(),
+                              snapshot.trial.config(), snapshot.trial.seed(), snapshot.note);
+      },
+      py::arg("snapshot"), py::arg("source"), "The record in a trial's snapshot, for Record.load.");
+
+  auto cls = py::reinterpret_borrow<py::class_<Trial>>(m.attr("Trial"));
+  cls.def(
+         "save",
+         [](const Trial& self, const py::object& path, const py::object& record,
+            bool without_agent) {
+           const std::string name = file_path(path);
+           const Saving saving(self, record, without_agent);
+           const Turn turn;
+           save(self, name, saving.options());
+         },
+         py::arg("path"), py::arg("record") = py::none(), py::kw_only(),
+         py::arg("without_agent") = false,
+         "Writes a snapshot (safetensors layout): world, configuration, seed, pose, round and "
+         "agent "
+         "with its generator, and a Record if one is given, which Record.load reads. To the side "
+         "first, flushed, then renamed. A Learner and a RandomAgent can be saved; any other agent "
+         "only by its owner: then save the trial `without_agent`. Raises FileError, InvalidValue.")
+      .def_static(
+          "load",
+          [](const py::object& path, const py::object& agent) {
+            const std::string name = file_path(path);
+            const std::shared_ptr<Agent> given = given_agent(agent);
+            const Turn turn;
+            return load_trial(name, given).trial;
+          },
+          py::arg("path"), py::arg("agent") = py::none(),
+          "The trial in a snapshot; it goes on equal to the bit, in the middle of a round, too. "
+          "`agent` takes the place of the one in the file. Raises FileError, saying what is wrong "
+          "with the file.")
+      .def("to_bytes", &snapshot_bytes, py::arg("record") = py::none(), py::kw_only(),
+           py::arg("without_agent") = false, "The snapshot as bytes.")
+      .def_static(
+          "from_bytes",
+          [](const py::bytes& bytes, const py::object& agent) {
+            const std::shared_ptr<Agent> given = given_agent(agent);
+            return from_bytes(bytes, given, "bytes").trial;
+          },
+          py::arg("snapshot"), py::arg("agent") = py::none(),
+          "The trial in a snapshot's bytes. Raises FileError.")
+      // The agent is pickled or copied by its own rules, and with whoever else holds it.
+      .def(py::pickle(
+          [](const py::object& self) {
+            const auto& trial = self.cast<const Trial&>();
+            return py::make_tuple(snapshot_bytes(trial, py::none(), true), agent_of(trial),
+                                  self.attr("__dict__"));
+          },
+          [](const py::tuple& state) {
+            const std::shared_ptr<Agent> agent = as_agent(state[1]);
+            return std::pair(from_bytes(state[0], agent, "bytes").trial, state[2].cast<py::dict>());
+          }))
+      .def(
+          "copy",
+          [](const py::object& self) { return py::module_::import("copy").attr("deepcopy")(self); },
+          "An independent trial, with an agent of its own, that goes on alike.")
+      .def("__copy__", [](const py::object& self) { return self.attr("copy")(); });
+}
+
+}  // namespace devlearn::python
