@@ -251,8 +251,8 @@ TEST_CASE("trials that earlier versions saved have the past and the future that 
     REQUIRE(snapshot.record.has_value());
     Record& record = *snapshot.record;
     const auto past = static_cast<std::ptrdiff_t>(record.steps());
-    snapshot.trial.run(record, 100);
-    snapshot.trial.path_learning(record, 2, 60);
+    snapshot.trial.run(record, 100, {true, {}});
+    snapshot.trial.path_learning(record, 2, 60, {true, {}});
     CHECK(std::count(record.collided.begin() + past, record.collided.end(), 1) == 0);
     std::string text;
     for (std::size_t i = 0; i < record.steps(); ++i) {
