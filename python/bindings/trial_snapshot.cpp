@@ -119,12 +119,13 @@ void bind_trial_snapshot(py::module_& m) {
           "The trial in a snapshot's bytes. Raises FileError.")
       // The agent is pickled or copied by its own rules, and with whoever else holds it.
       .def(py::pickle(
-          [](const py::object& self) {
+          [](const py::object& self) -> py::object {
             const auto& trial = self.cast<const Trial&>();
             return py::make_tuple(snapshot_bytes(trial, py::none(), true), agent_of(trial),
                                   self.attr("__dict__"));
           },
-          [](const py::tuple& state) {
+          [](const py::object& given) {
+            const auto state = given.cast<py::tuple>();
             const std::shared_ptr<Agent> agent = as_agent(state[1]);
             return std::pair(from_bytes(state[0], agent, "bytes").trial, state[2].cast<py::dict>());
           }))

@@ -41,8 +41,10 @@ __all__: list[str] = [
     "commit",
     "direction",
     "exponential",
+    "record_in_snapshot",
     "shortest_path",
     "wrapped_heading",
+    "write_file",
 ]
 
 class Random:
@@ -513,6 +515,15 @@ class Learner:
         The learner in a snapshot's bytes. Raises FileError.
         """
     @staticmethod
+    def from_memory(
+        memory: devlearn._types.LearnerMemory,
+        config: LearnerConfig | None = None,
+        seed: typing.SupportsIndex = 0,
+    ) -> Learner:
+        """
+        A learner that remembers what the arrays of a LearnerMemory say, which are copied; its draws begin anew from the seed. Raises InvalidValue where they break a law: lists that do not partition M, unexplored motions out of order, orientations outside [0, 1] or whose sum is not 1 within 1e-9, counts below 1, a situation twice, other types or shapes.
+        """
+    @staticmethod
     def load(path: typing.Any) -> Learner:
         """
         The learner in a snapshot; it goes on equal to the bit. Raises FileError, saying what is wrong with the file.
@@ -548,6 +559,10 @@ class Learner:
     ) -> Development:
         """
         Steps 4-5: learns from the chosen motion's SMF (finite; >= 0 means effective), or from that of the `motion` that really ran. Raises InvalidValue where no choice waits.
+        """
+    def memory(self) -> devlearn._types.LearnerMemory:
+        """
+        All that it remembers, as a LearnerMemory: a tuple of arrays, which are copies.
         """
     def reserve(self, situations: typing.SupportsIndex) -> None:
         """
@@ -1166,7 +1181,14 @@ class RandomAgent:
     """
     Uniformly random motions: what learning is measured against.
     """
+    def __getstate__(self) -> typing.Annotated[list[int], "FixedSize(4)"]: ...
     def __init__(self, seed: typing.SupportsIndex = 0) -> None: ...
+    def __setstate__(
+        self,
+        arg0: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(4)"
+        ],
+    ) -> None: ...
 
 class Trial:
     """
@@ -1182,6 +1204,18 @@ class Trial:
     """
 
     interrupted: devlearn.record.Record | None
+    @staticmethod
+    def from_bytes(snapshot: bytes, agent: typing.Any = None) -> Trial:
+        """
+        The trial in a snapshot's bytes. Raises FileError.
+        """
+    @staticmethod
+    def load(path: typing.Any, agent: typing.Any = None) -> Trial:
+        """
+        The trial in a snapshot; it goes on equal to the bit, in the middle of a round, too. `agent` takes the place of the one in the file. Raises FileError, saying what is wrong with the file.
+        """
+    def __copy__(self) -> typing.Any: ...
+    def __getstate__(self) -> typing.Any: ...
     def __init__(
         self,
         world: World,
@@ -1189,9 +1223,20 @@ class Trial:
         seed: typing.SupportsIndex = 0,
         agent: typing.Any = None,
     ) -> None: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
     def begin_round(self) -> None:
         """
         Puts the robot at the start pose for a new round.
+        """
+    def copy(self) -> typing.Any:
+        """
+        An independent trial, with an agent of its own, that goes on alike.
+        """
+    def finish_round(
+        self, steps: typing.SupportsIndex, *, echoes: bool = False
+    ) -> devlearn.record.Record:
+        """
+        Goes on with the present round until the target is reached, for at most `steps` steps: what finishes a round of path learning that was interrupted.
         """
     def free_learning(
         self, steps: typing.SupportsIndex, *, echoes: bool = False, rounds_only: bool = False
@@ -1225,9 +1270,19 @@ class Trial:
         """
         `steps` ticks from where the robot is, in the present round. `echoes` records the sonars, too. With `rounds_only` the record holds `rounds` and no steps or poses, and memory does not grow with steps; not together with echoes.
         """
+    def save(
+        self, path: typing.Any, record: typing.Any = None, *, without_agent: bool = False
+    ) -> None:
+        """
+        Writes a snapshot (safetensors layout): world, configuration, seed, pose, round and agent with its generator, and a Record if one is given, which Record.load reads. To the side first, flushed, then renamed. A Learner and a RandomAgent can be saved; any other agent only by its owner: then save the trial `without_agent`. Raises FileError, InvalidValue.
+        """
     def step(self) -> Step:
         """
         One tick of the loop.
+        """
+    def to_bytes(self, record: typing.Any = None, *, without_agent: bool = False) -> bytes:
+        """
+        The snapshot as bytes.
         """
     @property
     def agent(self) -> typing.Any:
@@ -1290,6 +1345,11 @@ def exponential(x: typing.SupportsFloat | typing.SupportsIndex) -> float:
     e**x within 1 ulp. Unlike math.exp its last bits are the same on every machine; inf where it overflows.
     """
 
+def record_in_snapshot(snapshot: bytes, source: str) -> typing.Any:
+    """
+    The record in a trial's snapshot, for Record.load.
+    """
+
 def shortest_path(
     robot: Robot,
     start: collections.abc.Sequence[float] | None = None,
@@ -1302,6 +1362,11 @@ def shortest_path(
 def wrapped_heading(heading: typing.SupportsFloat | typing.SupportsIndex) -> float:
     """
     The heading brought into [0, 360) degrees, exactly. Raises InvalidValue unless it is finite.
+    """
+
+def write_file(path: typing.Any, content: bytes) -> None:
+    """
+    Writes a file as a whole: to the side, flushed to the disk, renamed, its folder flushed. Raises FileError; then what was there before is whole.
     """
 
 __version__: str

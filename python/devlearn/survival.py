@@ -142,5 +142,6 @@ def _ctrl_c_noted() -> Iterator[threading.Event]:
 
 
 def forget(folder: str | os.PathLike[str]) -> None:
-    """Removes the state of a run that is finished and written."""
-    Path(folder, STATE).unlink(missing_ok=True)
+    """Removes the state of a run that is finished and written, and what a kill left beside it."""
+    for left in Path(folder).glob(STATE + "*"):
+        left.unlink()

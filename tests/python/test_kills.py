@@ -138,15 +138,20 @@ def test_a_disk_that_fails_at_any_call_of_a_save_is_an_error_and_the_file_is_who
 
 # --- devlearn run ---------------------------------------------------------------------------------
 
-RUN = ["run", "paper", "--steps", "1500", "--rounds", "10", "--step-limit", "200", "--seed", "3",
+RUN = ["run", "paper", "--steps", "3000", "--rounds", "15", "--step-limit", "200", "--seed", "3",
        "--save-every", "200", "--echoes"]  # fmt: skip
 
 
 def start(folder):
+    """A run, as if matplotlib were not installed: pictures take most of the time."""
+    shim = folder.parent / "shim" / "matplotlib"
+    shim.mkdir(parents=True, exist_ok=True)
+    (shim / "__init__.py").write_text("raise ModuleNotFoundError(\"No module named 'matplotlib'\")")
+    path = os.pathsep.join([str(shim.parent), os.environ.get("PYTHONPATH", "")])
     return subprocess.Popen(
         [sys.executable, "-m", "devlearn.cli", *RUN, "--output", folder],
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-        env=os.environ | {"MPLBACKEND": "Agg"},
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+        env=os.environ | {"PYTHONPATH": path},
     )  # fmt: skip
 
 
@@ -171,20 +176,20 @@ def life(folder, random):
     before, run = version(), start(folder)
     while run.poll() is None and version() == before:
         time.sleep(0.001)
-    moment = time.monotonic() + random.uniform(0.0, 0.2)
+    moment = time.monotonic() + random.uniform(0.0, 0.1)
     while run.poll() is None and time.monotonic() < moment:
         time.sleep(0.001)
     run.kill()
-    errors = run.communicate()[1].decode()
+    errors = run.communicate()[1]
     assert run.returncode in (0, -signal.SIGKILL), errors
-    assert errors == ""
+    assert errors == "" or errors.startswith("no figures")
     return run.returncode != 0
 
 
 def test_runs_killed_at_random_moments_go_on_to_the_history_of_an_unbroken_one(tmp_path):
     random = np.random.default_rng(1)
     unbroken = start(tmp_path / "unbroken")
-    assert unbroken.communicate()[1] == b""
+    assert unbroken.communicate()[1].startswith("no figures")
     expected = written(tmp_path / "unbroken")
     assert not (tmp_path / "unbroken" / "state.safetensors").exists()
 
@@ -196,4 +201,3 @@ def test_runs_killed_at_random_moments_go_on_to_the_history_of_an_unbroken_one(t
         runs += 1
         assert written(folder) == expected
         assert not list(folder.glob("state*"))
-    print(f"{kills} kills in {runs} runs")
