@@ -143,5 +143,5 @@ def _ctrl_c_noted() -> Iterator[threading.Event]:
 
 def forget(folder: str | os.PathLike[str]) -> None:
     """Removes the state of a run that is finished and written, and what a kill left beside it."""
-    for left in Path(folder).glob(STATE + "*"):
+    for left in sorted(Path(folder).glob(STATE + "*"), reverse=True):  # the state last
         left.unlink()
