@@ -291,13 +291,14 @@ void bind_trial(py::module_& m) {
           "(arrived False) after `step_limit` steps.")
       .def(
           "finish_round",
-          [](py::object& self, Whole<StepsTag> steps, bool echoes) {
-            return run_phase(self, echoes,
+          [](py::object& self, Whole<StepsTag> steps, bool echoes, bool rounds_only) {
+            return run_phase(self, echoes, rounds_only,
                              [&](Trial& trial, Record& record, const RunOptions& run) {
                                trial.finish_round(record, steps.value, run);
                              });
           },
           py::arg("steps"), py::kw_only(), py::arg("echoes") = false,
+          py::arg("rounds_only") = false,
           "Goes on with the present round until the target is reached, for at most `steps` steps: "
           "what finishes a round of path learning that was interrupted.")
       .def("begin_round", &Trial::begin_round, py::call_guard<Turn>(),
