@@ -1233,7 +1233,7 @@ class Trial:
         An independent trial, with an agent of its own, that goes on alike.
         """
     def finish_round(
-        self, steps: typing.SupportsIndex, *, echoes: bool = False
+        self, steps: typing.SupportsIndex, *, echoes: bool = False, rounds_only: bool = False
     ) -> devlearn.record.Record:
         """
         Goes on with the present round until the target is reached, for at most `steps` steps: what finishes a round of path learning that was interrupted.
