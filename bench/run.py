@@ -148,7 +148,7 @@ class Tree:
         """Instructions per step of benchmarks, by callgrind: of two iterations less one's."""
         counted = {}
         for name in names:
-            command = [self._programs / "bench_all", f"--benchmark_filter=^{name}$",
+            command = [self._programs / "bench_all", f"--benchmark_filter=^{name}(/iterations:.*)?$",
                        "--benchmark_format=json"]  # fmt: skip
             runs = [_callgrind(command, DEVLEARN_BENCH_ITERATIONS=str(n)) for n in (1, 2)]
             steps = json.loads(runs[0][1])["benchmarks"][0]["steps"]
@@ -189,11 +189,12 @@ def built(source: Path, commit: str, extension: Path | None = None) -> Tree:
     folder = source / "build" / "bench" / "release"
     pybind = output([sys.executable, "-m", "pybind11", "--cmakedir"]).strip()
     print(f"bench: building {commit}", flush=True)
-    output([
-        "cmake", "-S", source, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-        "-DDEVLEARN_BENCH=ON", f"-DDEVLEARN_PYTHON={'OFF' if extension else 'ON'}",
-        f"-Dpybind11_DIR={pybind}", f"-DPython_EXECUTABLE={sys.executable}",
-    ])  # fmt: skip
+    if not (folder / "build.ninja").exists():
+        output([
+            "cmake", "-S", source, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+            "-DDEVLEARN_BENCH=ON", f"-DDEVLEARN_PYTHON={'OFF' if extension else 'ON'}",
+            f"-Dpybind11_DIR={pybind}", f"-DPython_EXECUTABLE={sys.executable}",
+        ])  # fmt: skip
     # An earlier library may lack what a newer benchmark needs; what is essential is checked below.
     jobs = os.environ.get("DEVLEARN_JOBS", str(os.cpu_count()))
     command = ["cmake", "--build", folder, "--parallel", jobs, "--", "-k", "0"]
@@ -218,12 +219,13 @@ def earlier(revision: str) -> Tree:
     """An earlier commit, built with the benchmarks of today."""
     commit = commit_of(revision)
     source = ROOT / "build" / "against" / commit
-    shutil.rmtree(source, ignore_errors=True)
-    source.mkdir(parents=True)
-    archive = subprocess.run(["git", "archive", commit], cwd=ROOT, capture_output=True, check=True)
-    subprocess.run(["tar", "-x", "-C", source], input=archive.stdout, check=True)
-    shutil.rmtree(source / "bench")
-    shutil.copytree(BENCH, source / "bench")
+    if not source.exists():
+        source.mkdir(parents=True)
+        command = ["git", "archive", commit]
+        archive = subprocess.run(command, cwd=ROOT, capture_output=True, check=True)
+        subprocess.run(["tar", "-x", "-C", source], input=archive.stdout, check=True)
+    # Copied with their times, so that only what changed is built anew.
+    shutil.copytree(BENCH, source / "bench", dirs_exist_ok=True)
     return built(source, commit)
 
 
