@@ -148,8 +148,8 @@ class Tree:
         """Instructions per step of benchmarks, by callgrind: of two iterations less one's."""
         counted = {}
         for name in names:
-            command = [self._programs / "bench_all", f"--benchmark_filter=^{name}(/iterations:.*)?$",
-                       "--benchmark_format=json"]  # fmt: skip
+            only = f"--benchmark_filter=^{name}(/iterations:.*)?$"
+            command = [self._programs / "bench_all", only, "--benchmark_format=json"]
             runs = [_callgrind(command, DEVLEARN_BENCH_ITERATIONS=str(n)) for n in (1, 2)]
             steps = json.loads(runs[0][1])["benchmarks"][0]["steps"]
             counted[name] = (runs[1][0] - runs[0][0]) / steps
@@ -338,29 +338,29 @@ def shown(value: float | None) -> str:
 def table(results: Sequence[Mapping[str, Any]]) -> Iterator[str]:
     """The items, one a line; of several results the first is judged, the others stand beside."""
     yield (
-        f"{'':14} {'':50} {'asked':>8} "
+        f"{'':14} {'':56} {'asked':>8} "
         + " ".join(f"{r['commit'][:12]:>12}" for r in results)
         + (f" {'±':>5} {'by instr.':>9}")
     )
     for i, row in enumerate(results[0]["items"]):
         verdict = {True: "pass", False: "FAIL", None: "not measured"}[row["holds"]]
         yield (
-            f"{row['group']:14} {row['what']:50} {row['sign']} {shown(row['bound']):>6} "
+            f"{row['group']:14} {row['what']:56} {row['sign']} {shown(row['bound']):>6} "
             + " ".join(f"{shown(r['items'][i]['value']):>12}" for r in results)
             + f" {100 * row['error']:4.1f}% {shown(row['by_instructions']):>9}  {verdict}"
         )
     for what in FIGURES:
         values = " ".join(f"{shown(r['figures'][what]):>12}" for r in results)
-        yield f"{'figures':14} {what:50} {'':>9} {values}"
+        yield f"{'figures':14} {what:56} {'':>9} {values}"
     for stage in STAGES:
         values = " ".join(f"{shown(r['stages'][stage][0]):>12}" for r in results)
         counted = shown(results[0]["stages"][stage][1])
-        yield f"{'a step [ns]':14} {stage:50} {'':>9} {values} {'':>6} {counted:>9}"
+        yield f"{'a step [ns]':14} {stage:56} {'':>9} {values} {'':>6} {counted:>9}"
     for i, row in enumerate(results[0]["latency_ns"]):
         for quantile in ("median", "p99.9", "worst"):
             what = f"{row['what']}, {quantile} of {row['steps']} [ns]"
             values = " ".join(f"{shown(r['latency_ns'][i][quantile]):>12}" for r in results)
-            yield f"{'latency':14} {what:50} {'':>9} {values}"
+            yield f"{'latency':14} {what:56} {'':>9} {values}"
 
 
 # --- comparing ------------------------------------------------------------------------------------
@@ -422,7 +422,7 @@ def main() -> None:
         "--compare", metavar="FILE", nargs="?", type=Path, const=Path(),
         help="say what is slower than in a result (default: the last in bench/results)",
     )  # fmt: skip
-    parser.add_argument("--output", metavar="FILE", type=Path, help="where to write the result")
+    parser.add_argument("--output", metavar="DIR", type=Path, help="where to write results")
     options = parser.parse_args()
     mode = "smoke" if options.smoke else "quick" if options.quick else "full"
 
@@ -443,7 +443,7 @@ def main() -> None:
     if options.output or mode == "full":
         for result in results:
             name = f"{result['date'][:10]}-{result['commit']}.json"
-            write(result, options.output or RESULTS / name)
+            write(result, (options.output or RESULTS) / name)
     if mode != "full":
         print(f"bench: mode {mode}: fewer, shorter passes, no instructions; nothing to rely on")
     if before:
