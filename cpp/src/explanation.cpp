@@ -22,8 +22,8 @@ const char* name_of(Kind kind) {
 template <typename... Values>
 void append(std::string& text, const char* format, Values... values) {
   char line[160];
-  std::snprintf(line, sizeof line, format, values...);
-  text += line;
+  const int length = std::snprintf(line, sizeof line, format, values...);
+  if (length > 0) text.append(line, std::min<std::size_t>(length, sizeof line - 1));
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ constexpr double kCosine[] = {
 
 // Of a heading in [0, 360) degrees.
 constexpr Direction unit_vector(double heading) noexcept {
-  const int quarter = static_cast<int>(heading / 90.0 + 0.5);
+  const double nearest = heading / 90.0 + 0.5;
+  const int quarter = static_cast<int>(nearest);
   const double x = (heading - 90.0 * quarter) * (kPi / 180.0), square = x * x;
   const double c = 1.0 - (0.5 * square - square * square * polynomial(square, kCosine));
   const double s = x + x * (square * polynomial(square, kSine));
@@ -78,7 +79,7 @@ double exponential(double x) noexcept {
   if (power_of_two < -1021 || power_of_two > 1023) return std::ldexp(power, power_of_two);
   // 2^k by its bits: the product is no subnormal and so exact.
   const auto bits = static_cast<std::uint64_t>(power_of_two + 1023) << 52;
-  double scale;
+  double scale = 0.0;
   std::memcpy(&scale, &bits, sizeof scale);
   return power * scale;
 }

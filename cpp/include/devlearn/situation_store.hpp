@@ -65,7 +65,7 @@ class SituationStore {
   std::size_t block_bytes() const noexcept { return block_bytes_; }
   const std::byte* block(Slot slot) const noexcept { return blocks_.data() + slot * block_bytes_; }
   static SituationId id_in(const std::byte* block) noexcept {
-    SituationId id;
+    SituationId id = 0;
     std::memcpy(&id, block, sizeof id);
     return id;
   }
