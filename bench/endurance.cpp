@@ -1,5 +1,5 @@
-// One run of very many steps of which only summaries are kept: resident memory, sampled a hundred
-// times, at the end over that after the first hundredth.
+// One run of very many steps of which only summaries are kept: how much more memory is resident at
+// any of a hundred samples than at the first. What may still come are situations not met before.
 //
 //     endurance STEPS
 
@@ -37,6 +37,6 @@ int main(int count, char** arguments) {
     most = std::max(most, resident_bytes());
     if (sample == 0) first = most;
   }
-  std::printf("{\"steps\": %lld, \"resident_bytes\": %.0f, \"growth\": %.4f}\n", steps, most,
-              most / first);
+  std::printf("{\"steps\": %lld, \"resident_mb\": %.3f, \"growth_mb\": %.3f}\n", steps, most / 1e6,
+              (most - first) / 1e6);
 }

@@ -135,10 +135,11 @@ class Tree:
         return {f"memory/{key}": v for key, v in json.loads(self.run("memory")).items()}
 
     def endurance(self, steps: int) -> Pass:
-        """Resident memory at the end of a long run over that at its beginning."""
+        """Megabytes by which resident memory grows in a long run."""
         if not (self._programs / "bench_endurance").exists():
             return {}  # an earlier library cannot run so
-        return {"endurance/growth": json.loads(self.run("endurance", str(steps)))["growth"]}
+        grown = json.loads(self.run("endurance", str(steps)))
+        return {"endurance/growth_mb": grown["growth_mb"]}
 
     def latency(self, steps: int) -> list[dict[str, Any]]:
         """Median, 99.9th percentile and worst of choose + learn [ns]."""
