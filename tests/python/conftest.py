@@ -1,10 +1,15 @@
 """What several tests share."""
 
+import signal
+
 import devlearn
 import numpy as np
 import pytest
 from devlearn.record import POSE_COLUMNS, STEP_COLUMNS
 from hypothesis import settings
+
+# Ctrl-C is tested, too; a shell that runs the tests in the background would have it ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # The same examples every time, however slow the machine.
 settings.register_profile("devlearn", derandomize=True, deadline=None, max_examples=60)
