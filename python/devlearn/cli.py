@@ -184,10 +184,13 @@ def _run(options: argparse.Namespace) -> int:
     from .runs import made_folder
 
     # At once, not when they are needed.
-    for name, least in (("steps", 0), ("rounds", 0), ("step_limit", 1), ("save_every", 1)):
+    limits = {"steps": (0, 40), "rounds": (0, 30), "step_limit": (1, 40), "save_every": (1, 40)}
+    for name, (least, power) in limits.items():
         value = getattr(options, name)
-        if value is not None and value < least:
-            raise InvalidValue("--" + name.replace("_", "-"), value, f"at least {least}")
+        if value is None or least <= value <= 2**power:
+            continue
+        allowed = f"at least {least}" if value < least else f"a whole number up to 2^{power}"
+        raise InvalidValue("--" + name.replace("_", "-"), value, allowed)
     world = _core.World.load(options.world)
     config = experiments.preset(options.preset)
     if options.config is not None:
