@@ -239,25 +239,22 @@ World::Surroundings Surfaces::around(Point p, double reach) const {
   for (std::uint32_t i = 0; i < kWalls; ++i) {
     if (edge_reached(i)) edges.push_back(i);
   }
-  std::vector<bool> seen(edges_.size() + circles_.size());
-  const auto first_time = [&](std::size_t surface) {
-    const bool first = !seen[surface];
-    seen[surface] = true;
-    return first;
-  };
   visit(Box{p, p}.grown_by(reach), [&](const Cell& cell) {
     for (std::uint32_t k = cell.first; k < cell.circles; ++k) {
       const std::uint32_t i = held_[k];
-      if (first_time(i) && edge_reached(i)) edges.push_back(i);
+      if (edge_reached(i)) edges.push_back(i);
     }
     for (std::uint32_t k = cell.circles; k < cell.outlines; ++k) {
       const std::uint32_t i = held_[k];
-      if (first_time(edges_.size() + i) && circle_reached(i)) circles.push_back(i);
+      if (circle_reached(i)) circles.push_back(i);
     }
     return true;
   });
-  std::sort(edges.begin(), edges.end());
-  std::sort(circles.begin(), circles.end());
+  // Several leaves may hold the same surface.
+  for (std::vector<std::uint32_t>* const found : {&edges, &circles}) {
+    std::sort(found->begin(), found->end());
+    found->erase(std::unique(found->begin(), found->end()), found->end());
+  }
 
   World::Surroundings near;
   near.edges.reserve(edges.size());

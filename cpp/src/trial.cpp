@@ -18,6 +18,7 @@ constexpr std::int64_t kStepsBetweenInterrupts = 8;
 // For how many steps room is made in a record beforehand, at most.
 constexpr std::int64_t kStepsAtOnce = 65536;
 
+constexpr std::int64_t kMostSteps = std::int64_t{1} << 40;
 constexpr std::int64_t kLastRound = std::int64_t{1} << 30;
 
 // One call at a time: an agent that calls its trial back would pull the step from under itself.
@@ -50,10 +51,6 @@ SituationGrid grid_over(const World& world, const TrialConfig& config) {
 
 std::shared_ptr<Agent> paper_agent(const TrialConfig& config, std::uint64_t seed) {
   return std::make_shared<LearnerAgent>(std::make_shared<Learner>(config.learner, seed));
-}
-
-const LearnerAgent* as_learner_agent(const Agent* agent) {
-  return dynamic_cast<const LearnerAgent*>(agent);
 }
 
 }  // namespace
@@ -220,15 +217,11 @@ void Trial::put(const Pose& pose) {
 }
 
 void Trial::run(Record& record, std::int64_t steps, const RunOptions& options) {
-  require_count("steps", steps, 0, std::int64_t{1} << 40);
-  const OneCall call(under_way_);
-  require_like(record, options);
-  round_ = std::max(round_, 1);
-  run_on(record, steps, false, options);
+  go_on(record, steps, false, options);
 }
 
 void Trial::free_learning(Record& record, std::int64_t steps, const RunOptions& options) {
-  require_count("steps", steps, 0, std::int64_t{1} << 40);
+  require_count("steps", steps, 0, kMostSteps);
   const OneCall call(under_way_);
   require_like(record, options);
   put(world().def().start);
@@ -237,8 +230,8 @@ void Trial::free_learning(Record& record, std::int64_t steps, const RunOptions& 
 
 void Trial::path_learning(Record& record, std::int64_t rounds, std::int64_t step_limit,
                           const RunOptions& options) {
-  require_count("rounds", rounds, 0, std::int64_t{1} << 30);
-  require_count("step_limit", step_limit, 1, std::int64_t{1} << 40);
+  require_count("rounds", rounds, 0, kLastRound);
+  require_count("step_limit", step_limit, 1, kMostSteps);
   const OneCall call(under_way_);
   require_like(record, options);
   for (std::int64_t i = 0; i < rounds; ++i) {
@@ -248,11 +241,17 @@ void Trial::path_learning(Record& record, std::int64_t rounds, std::int64_t step
 }
 
 void Trial::finish_round(Record& record, std::int64_t steps, const RunOptions& options) {
-  require_count("steps", steps, 0, std::int64_t{1} << 40);
+  go_on(record, steps, true, options);
+}
+
+// The present round, or the first.
+void Trial::go_on(Record& record, std::int64_t steps, bool until_arrival,
+                  const RunOptions& options) {
+  require_count("steps", steps, 0, kMostSteps);
   const OneCall call(under_way_);
   require_like(record, options);
   round_ = std::max(round_, 1);
-  run_on(record, steps, true, options);
+  run_on(record, steps, until_arrival, options);
 }
 
 // A record holds every step or none, and echoes of every one or of none.
@@ -324,7 +323,7 @@ Record Trial::finish_round(std::int64_t steps, const RunOptions& options) {
 }
 
 std::shared_ptr<Learner> Trial::learner() const noexcept {
-  const LearnerAgent* paper = as_learner_agent(agent_.get());
+  const LearnerAgent* paper = dynamic_cast<const LearnerAgent*>(agent_.get());
   return paper == nullptr ? nullptr : paper->learner();
 }
 

@@ -296,13 +296,14 @@ void bind_learner(py::module_& m) {
           "wrong with the file.")
       .def("memory", &memory_of,
            "All that it remembers, as a LearnerMemory: a tuple of arrays, which are copies.")
-      .def_static("from_memory", &from_memory, py::arg("memory"), py::arg("config") = py::none(),
-                  py::arg("seed") = 0,
-                  "A learner that remembers what the arrays of a LearnerMemory say, which are "
-                  "copied; its draws begin anew from the seed. Raises InvalidValue where they "
-                  "break a law: lists that do not partition M, unexplored motions out of order, "
-                  "orientations outside [0, 1] or whose sum is not 1 within 1e-9, counts below 1, "
-                  "a situation twice, other types or shapes.")
+      .def_static(
+          "from_memory", &from_memory, py::arg("memory"), py::arg("config") = py::none(),
+          py::arg("seed") = 0,
+          "A learner that remembers what the arrays of a LearnerMemory say, which are "
+          "copied; its draws begin anew from the seed. Raises InvalidValue where they "
+          "break a law: lists that do not partition M, unexplored motions out of order, "
+          "orientations outside [1e-12, 1] or whose sum is not 1 within 1e-9, counts below 1, "
+          "a situation twice, other types or shapes.")
       .def("to_bytes", &snapshot_bytes, "The snapshot as bytes.")
       .def_static("from_bytes", &from_bytes, py::arg("snapshot"),
                   "The learner in a snapshot's bytes. Raises FileError.")

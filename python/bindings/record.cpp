@@ -1,32 +1,37 @@
 #include "devlearn/record.hpp"
 
+#include <string_view>
+#include <type_traits>
+
 #include "bindings.hpp"
 #include "record_columns.hpp"
+#include "record_object.hpp"
 
 namespace devlearn::python {
+
+namespace {
+
+// Whether a column of bytes holds booleans.
+bool holds_booleans(const char* dtype) { return std::string_view(dtype) == "BOOL"; }
+
+}  // namespace
 
 py::dict columns(Record&& record) {
   const auto steps = static_cast<py::ssize_t>(record.steps());
   const py::ssize_t sonars = record.sonar_count;
   py::dict result;
-  result["round"] = moved_array<std::int32_t>(std::move(record.round));
-  result["situation"] = moved_array<std::int64_t>(std::move(record.situation));
-  result["motion"] = moved_array<std::int32_t>(std::move(record.motion));
-  result["kind"] = moved_array<std::uint8_t>(std::move(record.kind));
-  result["sef"] = moved_array<double>(std::move(record.sef));
-  result["smf"] = moved_array<double>(std::move(record.smf));
-  result["smf_used"] = moved_array<double>(std::move(record.smf_used));
-  result["collided"] = moved_array<bool>(std::move(record.collided));
-  result["arrived"] = moved_array<bool>(std::move(record.arrived));
-  result["goal_distance"] = moved_array<double>(std::move(record.goal_distance));
-  result["clearance"] = moved_array<double>(std::move(record.clearance));
-  result["event"] = moved_array<std::uint8_t>(std::move(record.event));
-  result["reduced"] = moved_array<std::int32_t>(std::move(record.reduced));
-  result["explored_count"] = moved_array<std::int64_t>(std::move(record.explored_count));
-  result["effective_count"] = moved_array<std::int64_t>(std::move(record.effective_count));
-  result["x"] = moved_array<double>(std::move(record.x));
-  result["y"] = moved_array<double>(std::move(record.y));
-  result["heading"] = moved_array<double>(std::move(record.heading));
+  const auto move = [&](const char* name, auto& column, const char* dtype) {
+    using T = typename std::decay_t<decltype(column)>::value_type;
+    if constexpr (std::is_same_v<T, std::uint8_t>) {
+      if (holds_booleans(dtype)) {
+        result[name] = moved_array<bool>(std::move(column));
+        return;
+      }
+    }
+    result[name] = moved_array<T>(std::move(column));
+  };
+  each_step_column(record, move);
+  each_pose_column(record, move);
   result["rounds"] = moved_array<Round>(std::move(record.rounds));
   if (sonars > 0) {
     result["echoes"] = moved_array<double>(std::move(record.echoes), {steps, sonars});
@@ -54,24 +59,15 @@ void copy_column(const py::object& record, const char* name, std::vector<T>& col
 
 Record record_of(const py::object& source) {
   Record record;
-  copy_column<std::int32_t>(source, "round", record.round);
-  copy_column<std::int64_t>(source, "situation", record.situation);
-  copy_column<std::int32_t>(source, "motion", record.motion);
-  copy_column<std::uint8_t>(source, "kind", record.kind);
-  copy_column<double>(source, "sef", record.sef);
-  copy_column<double>(source, "smf", record.smf);
-  copy_column<double>(source, "smf_used", record.smf_used);
-  copy_column<bool>(source, "collided", record.collided);
-  copy_column<bool>(source, "arrived", record.arrived);
-  copy_column<double>(source, "goal_distance", record.goal_distance);
-  copy_column<double>(source, "clearance", record.clearance);
-  copy_column<std::uint8_t>(source, "event", record.event);
-  copy_column<std::int32_t>(source, "reduced", record.reduced);
-  copy_column<std::int64_t>(source, "explored_count", record.explored_count);
-  copy_column<std::int64_t>(source, "effective_count", record.effective_count);
-  copy_column<double>(source, "x", record.x);
-  copy_column<double>(source, "y", record.y);
-  copy_column<double>(source, "heading", record.heading);
+  const auto copy = [&](const char* name, auto& column, const char* dtype) {
+    using T = typename std::decay_t<decltype(column)>::value_type;
+    if constexpr (std::is_same_v<T, std::uint8_t>) {
+      if (holds_booleans(dtype)) return copy_column<bool>(source, name, column);
+    }
+    copy_column<T>(source, name, column);
+  };
+  each_step_column(record, copy);
+  each_pose_column(record, copy);
   const py::object rounds = source.attr("rounds");
   for (const py::handle entry : rounds) {
     record.rounds.push_back({entry["round"].cast<std::int32_t>(),

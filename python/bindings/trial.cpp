@@ -6,7 +6,7 @@
 
 #include "agents.hpp"
 #include "bindings.hpp"
-#include "record_columns.hpp"
+#include "record_object.hpp"
 
 namespace devlearn::python {
 namespace {

@@ -521,7 +521,7 @@ class Learner:
         seed: typing.SupportsIndex = 0,
     ) -> Learner:
         """
-        A learner that remembers what the arrays of a LearnerMemory say, which are copied; its draws begin anew from the seed. Raises InvalidValue where they break a law: lists that do not partition M, unexplored motions out of order, orientations outside [0, 1] or whose sum is not 1 within 1e-9, counts below 1, a situation twice, other types or shapes.
+        A learner that remembers what the arrays of a LearnerMemory say, which are copied; its draws begin anew from the seed. Raises InvalidValue where they break a law: lists that do not partition M, unexplored motions out of order, orientations outside [1e-12, 1] or whose sum is not 1 within 1e-9, counts below 1, a situation twice, other types or shapes.
         """
     @staticmethod
     def load(path: typing.Any) -> Learner:

@@ -133,6 +133,7 @@ class Trial {
   State sense(const Pose& pose, double to_obstacles) const;
   double clearance(const Pose& pose, double to_obstacles) const;
   void require_like(const Record& record, const RunOptions& options) const;
+  void go_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
   bool run_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
 
   TrialConfig config_;

@@ -13,6 +13,7 @@
 #include "../core/refusal.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/trial.hpp"
+#include "open_world.hpp"
 
 using namespace devlearn;
 
@@ -21,19 +22,6 @@ namespace {
 World shipped(const std::string& name) {
   return World::load(std::string(DEVLEARN_SOURCE_DIR) + "/python/devlearn/worlds/" + name +
                      ".json");
-}
-
-// A world in which the golden trials touch nothing, so that their history is the same whatever
-// Box2D does.
-World open_world() {
-  WorldDef def;
-  def.name = "open";
-  def.width = def.height = 12.0;
-  def.start = {5.0, 5.0, 0.0};
-  def.target = {6.5, 6.0};
-  def.obstacles = {Circle{{4.6, 6.8}, 0.2}, Rectangle{{8.0, 4.2}, 0.4, 0.2, 30.0},
-                   Polygon{{{8.5, 7.5}, {9.5, 7.4}, {8.9, 8.2}}}};
-  return World(def);
 }
 
 TrialConfig sonar_config() {

@@ -12,6 +12,7 @@
 #include "../core/snapshot_bytes.hpp"
 #include "devlearn/snapshot.hpp"
 #include "devlearn/trial_snapshot.hpp"
+#include "open_world.hpp"
 
 using namespace devlearn;
 
@@ -231,18 +232,10 @@ TEST_CASE("file, stream and memory hold the same snapshot, its record and its no
   std::remove(path.c_str());
 }
 
-// A world in which the robot touches nothing, so that Box2D has no say in the future.
 Trial in_open_world() {
-  WorldDef def;
-  def.name = "open";
-  def.width = def.height = 12.0;
-  def.start = {5.0, 5.0, 0.0};
-  def.target = {6.5, 6.0};
-  def.obstacles = {Circle{{4.6, 6.8}, 0.2}, Rectangle{{8.0, 4.2}, 0.4, 0.2, 30.0},
-                   Polygon{{{8.5, 7.5}, {9.5, 7.4}, {8.9, 8.2}}}};
   TrialConfig config;
   config.evaluation = {20.0, 0.3, 3.0, 0.5, 1.5};
-  return Trial(World(def), config, 2);
+  return Trial(open_world(), config, 2);
 }
 
 TEST_CASE("trials that earlier versions saved have the past and the future that they had then") {
