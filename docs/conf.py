@@ -53,7 +53,8 @@ def write_standin():
         ("typing.SupportsFloat | typing.SupportsIndex", "float"),
         ("typing.SupportsIndex", "int"),
         ("typing.Annotated[numpy.typing.ArrayLike, numpy.float64]", "numpy.typing.ArrayLike"),
-        ("devlearn._types.Pose", "devlearn.Pose"),
+        ("import devlearn._types\n", ""),  # which imports this
+        ("devlearn._types.", "devlearn."),
         ("devlearn.record.Record", "devlearn.Record"),
     ):
         text = text.replace(accepted, expected)

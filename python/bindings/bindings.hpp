@@ -235,15 +235,24 @@ struct type_caster<devlearn::Point> {
   static handle cast(const devlearn::Point& point, return_value_policy, handle);
 };
 
+/// devlearn.Choice and devlearn.Development, and back.
+template <>
+struct type_caster<devlearn::Choice> {
+  PYBIND11_TYPE_CASTER(devlearn::Choice, const_name("devlearn._types.Choice"));
+  bool load(handle source, bool convert);
+  static handle cast(const devlearn::Choice& choice, return_value_policy, handle);
+};
+template <>
+struct type_caster<devlearn::Development> {
+  PYBIND11_TYPE_CASTER(devlearn::Development, const_name("devlearn._types.Development"));
+  bool load(handle source, bool convert);
+  static handle cast(const devlearn::Development& development, return_value_policy, handle);
+};
+
 template <>
 struct type_caster<devlearn::python::Idle> {
   PYBIND11_TYPE_CASTER(devlearn::python::Idle, make_caster<devlearn::Learner>::name);
-  bool load(handle source, bool convert) {
-    make_caster<devlearn::Learner> learner;
-    if (!learner.load(source, convert)) return false;
-    value = devlearn::python::Idle(cast_op<devlearn::Learner&>(learner));
-    return true;
-  }
+  bool load(handle source, bool convert);
 };
 
 template <typename Tag>

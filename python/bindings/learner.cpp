@@ -1,9 +1,100 @@
 #include "devlearn/learner.hpp"
 
+#include <array>
 #include <optional>
+#include <tuple>
 
 #include "bindings.hpp"
 #include "devlearn/snapshot.hpp"
+#include "straight_method.hpp"
+
+namespace PYBIND11_NAMESPACE {
+namespace detail {
+namespace {
+
+// What is made when first needed, and then kept as long as the process lives.
+template <typename Make>
+handle kept(PyObject*& place, const Make& make) {
+  if (place == nullptr) {
+    object made = make();  // may let another thread in here, too
+    if (place == nullptr) place = made.release().ptr();
+  }
+  return place;
+}
+
+handle choice_type() {
+  static PyObject* type = nullptr;
+  return kept(type, [] { return module_::import("devlearn._types").attr("Choice"); });
+}
+
+handle development_type() {
+  static PyObject* type = nullptr;
+  return kept(type, [] { return module_::import("devlearn._types").attr("Development"); });
+}
+
+handle member(devlearn::Event event) {
+  static std::array<PyObject*, 5> members{};
+  return kept(members[static_cast<std::size_t>(event)], [&] { return pybind11::cast(event); });
+}
+
+// A named tuple of these values: what its class's _make does.
+template <typename... Values>
+object named_tuple(handle type, Values... values) {
+  const tuple arguments = make_tuple(make_tuple(values...));
+  PyObject* made =
+      PyTuple_Type.tp_new(reinterpret_cast<PyTypeObject*>(type.ptr()), arguments.ptr(), nullptr);
+  if (made == nullptr) throw error_already_set();
+  return reinterpret_steal<object>(made);
+}
+
+}  // namespace
+
+bool type_caster<devlearn::python::Idle>::load(handle source, bool convert) {
+  // Looked up once: that takes longer than choosing.
+  static const type_info* const type = get_type_info(typeid(devlearn::Learner));
+  type_caster_generic learner(type);
+  if (!learner.load(source, convert) || learner.value == nullptr) return false;
+  value = devlearn::python::Idle(*static_cast<devlearn::Learner*>(learner.value));
+  return true;
+}
+
+bool type_caster<devlearn::Choice>::load(handle source, bool convert) {
+  using Fields = std::tuple<devlearn::python::Whole<devlearn::python::MotionTag>, devlearn::Kind>;
+  make_caster<Fields> fields;
+  if (!isinstance(source, choice_type()) || !fields.load(source, convert)) return false;
+  const auto [motion, kind] = cast_op<Fields>(fields);
+  value = {motion.value, kind};
+  return true;
+}
+
+handle type_caster<devlearn::Choice>::cast(const devlearn::Choice& choice, return_value_policy,
+                                           handle) {
+  const auto made = [&] { return named_tuple(choice_type(), choice.motion, choice.kind); };
+  // They never change, and few differ: each is made once.
+  static std::array<std::array<PyObject*, 4>, 256> shared{};
+  const auto motion = static_cast<std::size_t>(choice.motion);
+  if (motion >= shared.size()) return made().release();
+  return kept(shared[motion][static_cast<std::size_t>(choice.kind)], made).inc_ref();
+}
+
+bool type_caster<devlearn::Development>::load(handle source, bool convert) {
+  using Fields = std::tuple<devlearn::SituationId, int, devlearn::Event, int>;
+  make_caster<Fields> fields;
+  if (!isinstance(source, development_type()) || !fields.load(source, convert)) return false;
+  const auto [situation, motion, event, reduced] = cast_op<Fields>(fields);
+  value = {situation, motion, event, reduced};
+  return true;
+}
+
+handle type_caster<devlearn::Development>::cast(const devlearn::Development& development,
+                                                return_value_policy, handle) {
+  return named_tuple(development_type(), development.situation, development.motion,
+                     member(development.event), development.reduced)
+      .release();
+}
+
+}  // namespace detail
+}  // namespace PYBIND11_NAMESPACE
 
 namespace devlearn::python {
 namespace {
@@ -88,6 +179,10 @@ Learner from_memory(const MemoryObject& memory, const std::optional<LearnerConfi
   return Learner(state);
 }
 
+// What is called at every step.
+Choice choose(Idle self, Whole<SituationTag> situation) { return self->choose(situation.value); }
+Development learn(Idle self, double smf) { return self->learn(smf); }
+
 void bind_config(py::module_& m) {
   py::class_<LearnerConfig> cls(
       m, "LearnerConfig",
@@ -153,34 +248,6 @@ void bind_results(py::module_& m) {
       .value("ABANDONMENT", Event::kAbandonment, "an exploited motion met SMF < 0 and left")
       .finalize();
 
-  py::class_<Choice>(m, "Choice", "A motion to execute: its index in M, and why.")
-      .def(py::init([](Whole<MotionTag> motion, Kind kind) {
-             return Choice{motion.value, kind};
-           }),
-           py::arg("motion"), py::arg("kind") = Kind::kUnstated)
-      .def_readonly("motion", &Choice::motion, "Index in M.")
-      .def_readonly("kind", &Choice::kind, "Why it was chosen.")
-      .def(
-          "__eq__",
-          [](const Choice& a, const Choice& b) { return a.motion == b.motion && a.kind == b.kind; },
-          py::is_operator())
-      .def("__repr__", [](const py::object& self) {
-        return py::str("Choice(motion={}, kind={!r})")
-            .format(self.attr("motion"), self.attr("kind"));
-      });
-
-  py::class_<Development>(m, "Development", "What one outcome changed in the learner.")
-      .def_readonly("situation", &Development::situation, "The situation learned in.")
-      .def_readonly("motion", &Development::motion, "The motion learned about.")
-      .def_readonly("event", &Development::event, "What happened to it.")
-      .def_readonly("reduced", &Development::reduced,
-                    "How many motions reduction development (Eq. 14-17) removed.")
-      .def("__repr__", [](const py::object& self) {
-        return py::str("Development(situation={}, motion={}, event={!r}, reduced={})")
-            .format(self.attr("situation"), self.attr("motion"), self.attr("event"),
-                    self.attr("reduced"));
-      });
-
   py::class_<MemoryUse>(m, "MemoryUse", "Memory in bytes.")
       .def_readonly("used", &MemoryUse::used,
                     "By the situations experienced, their index included.")
@@ -220,7 +287,7 @@ void bind_learner(py::module_& m) {
   bind_explanation(m);  // it shows results, and the learner shows it
 
   const auto copy = [](Idle self) { return Learner(*self); };
-  py::class_<Learner, std::shared_ptr<Learner>>(
+  py::class_<Learner, std::shared_ptr<Learner>> cls(
       m, "Learner",
       "The sensorimotor developmental learner: a situation in, a motion out; how good it was in,\n"
       "the lists develop. It knows no robot, grid or task.\n\n"
@@ -229,17 +296,14 @@ void bind_learner(py::module_& m) {
       "    ...execute choice.motion...\n"
       "    learner.learn(smf)                      # SMF = SEF after - SEF before, Eq. 8\n\n"
       "The same configuration, seed and outcomes give the same history everywhere. copy.copy and\n"
-      "copy.deepcopy give independent learners that go on alike. One thread at a time.")
-      .def(py::init([](const std::optional<LearnerConfig>& config, Whole<SeedTag> seed) {
-             return std::make_shared<Learner>(config.value_or(LearnerConfig{}), seed.value);
-           }),
-           py::arg("config") = py::none(), py::arg("seed") = 0)
-      .def(
-          "choose",
-          [](Idle self, Whole<SituationTag> situation) { return self->choose(situation.value); },
-          py::arg("situation"),
-          "Step 3: chooses a motion. Raises InvalidValue for a negative situation, or while an "
-          "earlier choice waits for learn() or cancel().")
+      "copy.deepcopy give independent learners that go on alike. One thread at a time.");
+  cls.def(py::init([](const std::optional<LearnerConfig>& config, Whole<SeedTag> seed) {
+            return std::make_shared<Learner>(config.value_or(LearnerConfig{}), seed.value);
+          }),
+          py::arg("config") = py::none(), py::arg("seed") = 0)
+      .def("choose", &choose, py::arg("situation"),
+           "Step 3: chooses a motion. Raises InvalidValue for a negative situation, or while an "
+           "earlier choice waits for learn() or cancel().")
       .def(
           "learn",
           [](Idle self, double smf, std::optional<Whole<MotionTag>> motion) {
@@ -338,6 +402,8 @@ void bind_learner(py::module_& m) {
                " situations, " + std::to_string(self->explored_count()) + " mappings explored, " +
                std::to_string(self->effective_count()) + " effective>";
       });
+  StraightMethod<&choose>::put_before(cls, "choose");
+  StraightMethod<&learn>::put_before(cls, "learn");
 }
 
 }  // namespace devlearn::python

@@ -54,7 +54,8 @@ class PythonAgent final : public Agent {
   Choice choose(const Observation& observation) override {
     const py::gil_scoped_acquire gil;
     const py::object chosen = agent_.attr("choose")(observation);
-    if (py::isinstance<Choice>(chosen)) return chosen.cast<Choice>();
+    py::detail::make_caster<Choice> choice;
+    if (choice.load(chosen, true)) return choice;
     if (!PyIndex_Check(chosen.ptr())) {
       throw InvalidValue("agent's choice", py::repr(chosen), "a motion index or a Choice");
     }
@@ -64,7 +65,8 @@ class PythonAgent final : public Agent {
   Development observe(const Outcome& outcome) override {
     const py::gil_scoped_acquire gil;
     const py::object result = agent_.attr("observe")(outcome);
-    return py::isinstance<Development>(result) ? result.cast<Development>() : Development{};
+    py::detail::make_caster<Development> development;
+    return development.load(result, true) ? Development(development) : Development{};
   }
 
   void cancel() override {

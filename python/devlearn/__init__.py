@@ -19,10 +19,8 @@ from . import errors as errors
 
 if TYPE_CHECKING:
     from ._core import (
-        Choice,
         ChoiceTrace,
         Circle,
-        Development,
         Event,
         Explanation,
         Kind,
@@ -50,7 +48,7 @@ if TYPE_CHECKING:
         shortest_path,
         wrapped_heading,
     )
-    from ._types import LearnerMemory, Pose
+    from ._types import Choice, Development, LearnerMemory, Pose
     from ._worlds import worlds
     from .errors import FileError, InvalidValue
     from .record import Record

@@ -12,10 +12,8 @@ import numpy.typing
 import typing
 
 __all__: list[str] = [
-    "Choice",
     "ChoiceTrace",
     "Circle",
-    "Development",
     "Event",
     "Explanation",
     "Kind",
@@ -318,52 +316,6 @@ class Event(enum.IntEnum):
     ORIENTATION = 3
     ABANDONMENT = 4
 
-class Choice:
-    """
-    A motion to execute: its index in M, and why.
-    """
-
-    __hash__: typing.ClassVar[None] = None  # type: ignore
-    def __eq__(self, other: object, /) -> bool: ...
-    def __init__(self, motion: typing.SupportsIndex, kind: Kind = Kind.UNSTATED) -> None: ...
-    def __repr__(self) -> str: ...
-    @property
-    def kind(self) -> Kind:
-        """
-        Why it was chosen.
-        """
-    @property
-    def motion(self) -> int:
-        """
-        Index in M.
-        """
-
-class Development:
-    """
-    What one outcome changed in the learner.
-    """
-    def __repr__(self) -> str: ...
-    @property
-    def event(self) -> Event:
-        """
-        What happened to it.
-        """
-    @property
-    def motion(self) -> int:
-        """
-        The motion learned about.
-        """
-    @property
-    def reduced(self) -> int:
-        """
-        How many motions reduction development (Eq. 14-17) removed.
-        """
-    @property
-    def situation(self) -> int:
-        """
-        The situation learned in.
-        """
-
 class MemoryUse:
     """
     Memory in bytes.
@@ -476,7 +428,7 @@ class ChoiceTrace:
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
     @property
-    def choice(self) -> Choice:
+    def choice(self) -> devlearn._types.Choice:
         """
         The Choice.
         """
@@ -540,7 +492,7 @@ class Learner:
         """
         The waiting choice was not executed; nothing is learned. Raises InvalidValue where none waits.
         """
-    def choose(self, situation: typing.SupportsIndex) -> Choice:
+    def choose(self, situation: typing.SupportsIndex) -> devlearn._types.Choice:
         """
         Step 3: chooses a motion. Raises InvalidValue for a negative situation, or while an earlier choice waits for learn() or cancel().
         """
@@ -556,7 +508,7 @@ class Learner:
         self,
         smf: typing.SupportsFloat | typing.SupportsIndex,
         motion: typing.SupportsIndex | None = None,
-    ) -> Development:
+    ) -> devlearn._types.Development:
         """
         Steps 4-5: learns from the chosen motion's SMF (finite; >= 0 means effective), or from that of the `motion` that really ran. Raises InvalidValue where no choice waits.
         """
@@ -589,7 +541,7 @@ class Learner:
         situation: typing.SupportsIndex,
         motion: typing.SupportsIndex,
         smf: typing.SupportsFloat | typing.SupportsIndex,
-    ) -> Development:
+    ) -> devlearn._types.Development:
         """
         Learns about any situation and motion, whoever chose: delayed outcomes, several robots, replay. A waiting choice goes on waiting. Raises InvalidValue.
         """
@@ -619,7 +571,7 @@ class Learner:
         Bytes used and spare, a MemoryUse.
         """
     @property
-    def pending(self) -> Choice | None:
+    def pending(self) -> devlearn._types.Choice | None:
         """
         The choice that waits for its outcome, or None.
         """

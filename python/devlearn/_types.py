@@ -5,6 +5,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ._core import Event, Kind
+
 
 class Pose(NamedTuple):
     """The robot's place and heading: x, y [m], heading [degrees, counter-clockwise from x]."""
@@ -12,6 +14,28 @@ class Pose(NamedTuple):
     x: float
     y: float
     heading: float
+
+
+class Choice(NamedTuple):
+    """A motion to execute: its index in M, and why."""
+
+    motion: int
+    """Index in M."""
+    kind: Kind = Kind.UNSTATED
+    """Why it was chosen."""
+
+
+class Development(NamedTuple):
+    """What one outcome changed in the learner."""
+
+    situation: int
+    """The situation learned in."""
+    motion: int
+    """The motion learned about."""
+    event: Event
+    """What happened to it."""
+    reduced: int
+    """How many motions reduction development (Eq. 14-17) removed."""
 
 
 class LearnerMemory(NamedTuple):

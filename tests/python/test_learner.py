@@ -1,8 +1,11 @@
 """The learner as Python sees it: its names, its refusals, its copies and its golden history."""
 
+import contextlib
 import copy
+import gc
 import pathlib
 import pickle
+import sys
 
 import devlearn
 import numpy as np
@@ -242,6 +245,93 @@ def test_numpys_whole_numbers_and_floats_are_as_good_as_pythons(integer):
     assert state(ours) == state(theirs)
 
 
+class Cautious(Learner):
+    """Asks its class for what it does."""
+
+    def choose(self, situation):
+        return super().choose(situation)
+
+    def learn(self, smf, motion=None):
+        return super().learn(smf) if motion is None else super().learn(smf, motion)
+
+
+@pytest.mark.parametrize(
+    ("kind", "choose", "learn"),
+    [
+        (Learner, lambda it, s: it.choose(situation=s), lambda it, smf: it.learn(smf=smf)),
+        (Learner, Learner.choose, Learner.learn),
+        (Learner, lambda it, s: it.choose(np.int64(s)), lambda it, smf: it.learn(np.float64(smf))),
+        (Learner, lambda it, s: it.choose(s), lambda it, smf: it.learn(smf, motion=None)),
+        (Learner, lambda it, s: it.choose(s), lambda it, smf: it.learn(smf, it.pending.motion)),
+        (Cautious, lambda it, s: it.choose(s), lambda it, smf: it.learn(smf)),
+    ],
+    ids=["by keyword", "by the class", "numpy's numbers", "none", "its motion", "a subclass"],
+)
+def test_however_choose_and_learn_are_called_the_history_is_the_same(kind, choose, learn):
+    plain, other = Learner(seed=4), kind(seed=4)
+    random = np.random.default_rng(4)
+    for _ in range(500):
+        situation, smf = int(random.integers(9)), float(random.normal(0.5, 3))
+        assert choose(other, situation) == plain.choose(situation)
+        assert learn(other, smf) == plain.learn(smf)
+    assert state(other) == state(plain)
+
+
+def test_results_are_named_tuples_that_nothing_changes():
+    learner = Learner(seed=1)
+    choice = learner.choose(7)
+    development = learner.learn(1.0)
+    motion, kind = choice
+    assert (motion, kind) == (choice.motion, choice.kind) == (choice.motion, Kind.EXPLORE)
+    assert development == devlearn.Development(7, motion, Event.EXTENSION, 0)
+    assert choice == devlearn.Choice(motion, Kind.EXPLORE) != devlearn.Choice(motion)
+    assert repr(choice) == f"Choice(motion={motion}, kind={Kind.EXPLORE!r})"
+    assert repr(development) == (
+        f"Development(situation=7, motion={motion}, event={Event.EXTENSION!r}, reduced=0)"
+    )
+    for result in (choice, development):
+        assert pickle.loads(pickle.dumps(result)) == copy.deepcopy(result) == result
+        assert hash(result) == hash(tuple(result))
+        with pytest.raises(AttributeError):
+            result.motion = 3
+
+
+def test_a_choice_that_is_kept_stays_what_it_was_however_many_motions_there_are():
+    learner = Learner(LearnerConfig(motion_count=300), seed=2)
+    kept = []
+    for situation in (0, 1):
+        for _ in range(300):
+            choice = learner.choose(situation)
+            kept.append((choice, choice.motion, choice.kind))
+            learner.learn(-1.0)
+    assert all(type(choice) is devlearn.Choice for choice, *_ in kept)
+    assert all((choice.motion, choice.kind) == (motion, kind) for choice, motion, kind in kept)
+    assert sorted(motion for _, motion, _ in kept) == sorted([*range(300)] * 2)
+
+
+def test_choosing_and_learning_leaves_nothing_behind():
+    learner = Learner(seed=3)
+    learner.reserve(100)
+
+    def steps(count):
+        for n in range(count):
+            learner.choose(1000 + n % 100)
+            learner.learn(smf=0.5 if n % 3 else -0.5)
+            learner.choose(1000 + n % 100)
+            learner.learn(1.5 - n % 4)
+            if n % 100 == 0:
+                for bad in ((lambda: learner.learn(1.0)), (lambda: learner.choose("x"))):
+                    with contextlib.suppress(TypeError, devlearn.InvalidValue):
+                        bad()
+
+    steps(1000)  # whatever is made once is made
+    gc.collect()
+    before = sys.getallocatedblocks()
+    steps(20_000)
+    gc.collect()
+    assert sys.getallocatedblocks() - before < 200
+
+
 @for_all(situations, st.integers(0, 4), finite)
 def test_an_update_leaves_a_waiting_choice_waiting(situation, motion, smf):
     learner = Learner()
@@ -308,6 +398,41 @@ def test_what_is_no_whole_number_is_a_type_error(nonsense):
             call(nonsense)
     assert learner.pending is None
     assert learner.situations_experienced == 0
+
+
+@pytest.mark.parametrize(
+    ("call", "shown"),
+    [
+        (lambda it: it.choose(), "choose"),
+        (lambda it: it.choose(3, 4), "choose"),
+        (lambda it: it.choose(3, situation=3), "choose"),
+        (lambda it: it.choose(3, place=3), "choose"),
+        (lambda it: it.choose([3]), "choose"),
+        (lambda it: it.learn(), "learn"),
+        (lambda it: it.learn(1.0, 2, 3), "learn"),
+        (lambda it: it.learn(1.0, smf=1.0), "learn"),
+        (lambda it: it.learn(1.0, momentum=1), "learn"),
+        (lambda it: it.learn("1"), "learn"),
+        (lambda it: it.learn(None), "learn"),
+        (lambda it: it.learn(1.0, 2.0), "learn"),
+    ],
+)
+@pytest.mark.parametrize("waiting", [False, True])
+def test_wrong_arguments_are_a_type_error_that_shows_the_right_ones(call, shown, waiting):
+    learner = Learner()
+    if waiting:
+        learner.choose(3)
+    before = state(learner)
+    with pytest.raises(TypeError, match=rf"{shown}\(\)(.*\n)*.*self: devlearn._core.Learner, s"):
+        call(learner)
+    assert state(learner) == before
+
+
+def test_methods_are_of_learners_only():
+    for method in (Learner.choose, Learner.learn):
+        for other in (None, 3, LearnerConfig(), Learner):
+            with pytest.raises(TypeError):
+                method(other, 1)
 
 
 # --- same seed, same history ---------------------------------------------------------------------

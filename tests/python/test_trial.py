@@ -574,16 +574,21 @@ def test_parts_of_a_trial_outlive_it(paper):
 
 def test_a_learner_that_another_threads_run_has_in_hand_is_refused(paper):
     trial = devlearn.Trial(paper, seed=1)
-    copied, refusals, running = trial.learner.copy(), [], threading.Event()
+    learner = trial.learner
+    copied, refusals, running = learner.copy(), [], threading.Event()
+    calls = [learner.situations, learner.copy]
+    # Refused before and after, too, for other reasons.
+    calls += [lambda: learner.choose(-1), lambda: learner.choose(situation=-1)]
+    calls += [lambda: learner.learn(0.0), lambda: learner.learn(0.0, motion=1)]
 
     def look():
         running.wait()
         while running.is_set():
-            for call in (trial.learner.situations, trial.learner.copy):
+            for call in calls:
                 try:
                     call()
                 except devlearn.InvalidValue as refusal:
-                    refusals.append(refusal.quantity)
+                    refusals.append((call, refusal.quantity))
             copied.situations()
 
     thread = threading.Thread(target=look)
@@ -592,7 +597,8 @@ def test_a_learner_that_another_threads_run_has_in_hand_is_refused(paper):
     record = trial.free_learning(200_000)
     running.clear()
     thread.join()
-    assert set(refusals) == {"Learner"}
+    assert {call for call, quantity in refusals if quantity == "Learner"} == set(calls)
+    assert {quantity for _, quantity in refusals} <= {"Learner", "situation", "Learner.learn"}
     alone = devlearn.Trial(paper, seed=1).free_learning(200_000)
     assert np.array_equal(record.motion, alone.motion)
 
