@@ -100,6 +100,7 @@ ITEMS = [
 # Figures without a bound, for people.
 FIGURES = {
     "whole experiments per minute on two cores": lambda m: 60.0 * m["runs/per_second_2"],
+    "replay with memory asked for as it goes / Q loop": ratio("learner/replay_from_nothing", Q),
     "bytes per situation with spare capacity": lambda m: m["memory/grown_mean"],
     "free steps of the closed loop [ns]": free_loop,
     "share of contacts in a free learning": lambda m: m["contact_share"],

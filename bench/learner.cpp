@@ -9,6 +9,7 @@ namespace devlearn::bench {
 namespace {
 
 constexpr int kMotions = 5;
+constexpr SituationId kSituations = 4800;
 constexpr SituationId kManySituations = 4'800'000;
 constexpr std::size_t kRandomSteps = 1'000'000;
 
@@ -80,7 +81,7 @@ void step(Learner& learner, const Met& met) {
 }
 
 const auto* const q_small = add("q_learning/4800", [](benchmark::State& state) {
-  LeastQLearning table(4800);
+  LeastQLearning table(kSituations);
   q_learn(state, recorded(), table);
 });
 
@@ -89,18 +90,41 @@ const auto* const q_large = add("q_learning/4800000", [](benchmark::State& state
   q_learn(state, random_steps(), table);
 });
 
-// From nothing each time, as it was recorded.
-const auto* const replay = add("learner/replay", [](benchmark::State& state) {
-  const auto& all = histories();
+std::vector<std::vector<Met>> met_by_seed() {
   std::vector<std::vector<Met>> met;
-  for (const auto& history : all) {
+  for (const auto& history : histories()) {
     met.emplace_back();
     for (const Step& one : history) met.back().push_back({one.situation, one.smf_used});
   }
+  return met;
+}
+
+// As it was recorded. The learner, like the table beside it, is made before, with room for all.
+const auto* const replay = add("learner/replay", [](benchmark::State& state) {
+  const auto met = met_by_seed();
+  std::vector<Learner> fresh;
+  for (std::uint64_t seed = 1; seed <= met.size(); ++seed) {
+    fresh.emplace_back(LearnerConfig{}, seed);
+    fresh.back().reserve(kSituations);
+  }
   for (auto _ : state) {
-    for (std::size_t seed = 1; seed <= met.size(); ++seed) {
-      Learner learner({}, seed);
-      for (const Met& one : met[seed - 1]) step(learner, one);
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      state.PauseTiming();
+      Learner learner = fresh[i];  // its pages are in hand before anything is timed
+      state.ResumeTiming();
+      for (const Met& one : met[i]) step(learner, one);
+    }
+  }
+  per_step(state, kSeeds * kSteps);
+});
+
+// The same with memory that the learner asks for as it goes, and the system's first touch of it.
+const auto* const from_nothing = add("learner/replay_from_nothing", [](benchmark::State& state) {
+  const auto met = met_by_seed();
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      Learner learner({}, i + 1);
+      for (const Met& one : met[i]) step(learner, one);
     }
   }
   per_step(state, kSeeds * kSteps);

@@ -39,9 +39,10 @@ Explanation explain(SituationId situation, const MotorMemory& memory, double sig
   why.exploit = static_cast<double>(n) / outcomes;
   why.exhausted = n + unexplored == 0 ? 1.0 : 0.0;
   for (int j = 0; j < n; ++j) {
-    why.curiosity.push_back(curiosity(memory.times_learned(j)));
-    why.op_plain.push_back(op(memory, j, false, sigma, curiosity));
-    why.op_curious.push_back(op(memory, j, true, sigma, curiosity));
+    const double orientation = memory.orientation(j), active = curiosity(memory.times_learned(j));
+    why.curiosity.push_back(active);
+    why.op_plain.push_back(op(orientation, 0.0, sigma));
+    why.op_curious.push_back(op(orientation, active, sigma));
   }
   std::vector<int> outcomes_of(static_cast<std::size_t>(memory.motion_count()));
   for (int outcome = 0; outcome < outcomes; ++outcome) {
@@ -62,7 +63,7 @@ ChoiceTrace trace(SituationId situation, const MotorMemory& memory, int outcome,
   trace.choice = choice_at(memory, choose_motion(memory, outcome, sigma, curiosity));
   if (trace.choice.kind == Kind::kExploit) {
     const int curious = outcome - memory.unexplored_count();
-    trace.curious = memory.effective(curious);
+    trace.curious = memory.motion(curious);
     trace.op = trace.explanation.op_plain;
     trace.op[static_cast<std::size_t>(curious)] =
         trace.explanation.op_curious[static_cast<std::size_t>(curious)];

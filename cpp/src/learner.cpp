@@ -12,10 +12,21 @@
 namespace devlearn {
 namespace {
 
+[[noreturn]] void refuse_situation(SituationId situation) {
+  throw InvalidValue("situation", std::to_string(situation), "a whole number in [0, 2^63 - 1]");
+}
+
 void require_situation(SituationId situation) {
-  if (situation < 0) {
-    throw InvalidValue("situation", std::to_string(situation), "a whole number in [0, 2^63 - 1]");
-  }
+  if (situation < 0) refuse_situation(situation);
+}
+
+[[noreturn]] void refuse_second_choice() {
+  throw InvalidValue("Learner.choose", "a second choice before the first met its outcome",
+                     "learn() or cancel() between two choices");
+}
+
+[[noreturn]] void refuse_outcome(const char* call) {
+  throw InvalidValue(call, "no choice that waits for its outcome", "a choose() before it");
 }
 
 [[noreturn]] void refuse_memory(const char* quantity, std::size_t i, const std::string& value,
@@ -144,7 +155,8 @@ Learner::Learner(const LearnerState& state) : Learner(state.config, state.seed) 
   const std::uint32_t* times_learned = all.times_learned.data();
   for (std::size_t i = 0; i < all.situation.size(); ++i) {
     const Slot slot = store_.find_or_add(all.situation[i]);
-    if (slot != i) refuse_memory("situation", i, std::to_string(all.situation[i]), "each id once");
+    if (slot != store_.nth(i))
+      refuse_memory("situation", i, std::to_string(all.situation[i]), "each id once");
     const int n = all.effective_count[i], ineffective = all.ineffective_count[i];
     store_.memory(slot).assign(&all.motions[i * config_.motion_count], n, ineffective, orientation,
                                times_learned);
@@ -160,32 +172,31 @@ Learner::Learner(const LearnerState& state) : Learner(state.config, state.seed) 
       throw InvalidValue("pending.situation", std::to_string(state.pending->situation),
                          "a situation that was experienced");
     }
-    pending_position_ = store_.memory(pending_slot_).find(pending_choice_.motion);
+    pending_place_ = store_.memory(pending_slot_).place_of(pending_choice_.motion);
   }
 }
 
 Choice Learner::choose(SituationId situation) {
   require_situation(situation);
-  if (pending_slot_ != SituationStore::kAbsent) {
-    throw InvalidValue("Learner.choose", "a second choice before the first met its outcome",
-                       "learn() or cancel() between two choices");
-  }
+  if (pending_slot_ != SituationStore::kAbsent) refuse_second_choice();
   const Slot slot = store_.find_or_add(situation);
   const MotorMemory here = store_.memory(slot);
+  std::memcpy(last_block_.data(), store_.block(slot), last_block_.size());
   const auto outcomes = static_cast<std::uint32_t>(outcome_count(here));
   last_outcome_ = static_cast<int>(random_.index(outcomes));
-  std::memcpy(last_block_.data(), store_.block(slot), last_block_.size());
-  pending_position_ = choose_motion(here, last_outcome_, config_.sigma, curiosity_);
-  pending_choice_ = choice_at(here, pending_position_);
+  const int place = choose_motion(here, last_outcome_, config_.sigma, curiosity_);
+  const Choice choice = choice_at(here, place);
   pending_slot_ = slot;
-  return pending_choice_;
+  pending_place_ = place;
+  pending_choice_ = choice;
+  return choice;
 }
 
 Development Learner::learn(double smf) {
   const Slot slot = require_pending("Learner.learn");
   require_finite("smf", smf);
   pending_slot_ = SituationStore::kAbsent;
-  return develop(slot, pending_choice_.motion, pending_position_, smf);
+  return develop(slot, pending_place_, smf);
 }
 
 Development Learner::learn(double smf, int motion) {
@@ -193,7 +204,7 @@ Development Learner::learn(double smf, int motion) {
   require_finite("smf", smf);
   require_count("motion", motion, 0, config_.motion_count - 1);
   pending_slot_ = SituationStore::kAbsent;
-  return develop(slot, motion, store_.memory(slot).find(motion), smf);
+  return develop(slot, store_.memory(slot).place_of(motion), smf);
 }
 
 void Learner::cancel() {
@@ -206,45 +217,44 @@ Development Learner::update(SituationId situation, int motion, double smf) {
   require_count("motion", motion, 0, config_.motion_count - 1);
   require_finite("smf", smf);
   const Slot slot = store_.find_or_add(situation);
-  const Development development = develop(slot, motion, store_.memory(slot).find(motion), smf);
-  if (slot == pending_slot_) pending_position_ = store_.memory(slot).find(pending_choice_.motion);
+  const MotorMemory memory = store_.memory(slot);
+  const Development development = develop(slot, memory.place_of(motion), smf);
+  if (slot == pending_slot_) pending_place_ = memory.place_of(pending_choice_.motion);
   return development;
 }
 
 // Steps 4 and 5.
-Development Learner::develop(Slot slot, int motion, MotorMemory::Position position,
-                             double smf) noexcept {
+Development Learner::develop(Slot slot, int place, double smf) noexcept {
+  MotorMemory situation = store_.memory(slot);
   Development development;
   development.situation = store_.id(slot);
-  development.motion = motion;
+  development.motion = situation.motion(place);
 
-  MotorMemory situation = store_.memory(slot);
   const int effective_before = situation.effective_count();
   const bool effective = smf >= 0.0;
-
-  switch (position.list) {
+  switch (situation.list(place)) {
     case MotorMemory::List::kUnexplored:
       ++explored_count_;
       if (effective) {
-        situation.extend(position);
+        situation.extend(place);
         development.event = Event::kExtension;
       } else {
-        situation.reject(position.index);
+        situation.reject(place);
         development.event = Event::kRejection;
       }
       break;
 
     case MotorMemory::List::kEffective:
-      situation.count_learning(position.index);
+      situation.count_learning(place);
       if (!effective && config_.on_negative == OnNegative::kAbandon) {
-        situation.abandon(position.index);
+        situation.abandon(place);
         development.event = Event::kAbandonment;
       } else {
         development.event = Event::kOrientation;
         if (effective_before > 1) {  // a sole motion has nothing to change
           // Below D = -1 Eq. 9 would leave [0, 1].
           const double d = std::max(-1.0, 1.0 - exponential(-config_.eta * smf));
-          situation.orient(position.index, d);
+          situation.orient(place, d);
           development.reduced = situation.reduce();
         }
       }
@@ -252,7 +262,7 @@ Development Learner::develop(Slot slot, int motion, MotorMemory::Position positi
 
     case MotorMemory::List::kIneffective:
       if (effective && config_.when_exhausted == WhenExhausted::kRetry) {
-        situation.extend(position);
+        situation.extend(place);
         development.event = Event::kExtension;
       }
       break;
@@ -269,7 +279,7 @@ SituationMemory Learner::situation(SituationId situation) const {
 
 std::vector<SituationId> Learner::situations() const {
   std::vector<SituationId> ids(store_.size());
-  for (Slot slot = 0; slot < store_.size(); ++slot) ids[slot] = store_.id(slot);
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = store_.id(store_.nth(i));
   return ids;
 }
 
@@ -300,12 +310,11 @@ LearnerState Learner::state() const {
   all.motions.reserve(store_.size() * config_.motion_count);
   all.orientation.reserve(static_cast<std::size_t>(effective_count_));
   all.times_learned.reserve(static_cast<std::size_t>(effective_count_));
-  for (Slot slot = 0; slot < store_.size(); ++slot) {
-    store_.memory(slot).append_to(all.motions, all.orientation, all.times_learned);
-    all.effective_count.push_back(
-        static_cast<std::uint16_t>(store_.memory(slot).effective_count()));
-    all.ineffective_count.push_back(
-        static_cast<std::uint16_t>(store_.memory(slot).ineffective_count()));
+  for (std::size_t i = 0; i < store_.size(); ++i) {
+    const MotorMemory memory = store_.memory(store_.nth(i));
+    memory.append_to(all.motions, all.orientation, all.times_learned);
+    all.effective_count.push_back(static_cast<std::uint16_t>(memory.effective_count()));
+    all.ineffective_count.push_back(static_cast<std::uint16_t>(memory.ineffective_count()));
   }
   return state;
 }
@@ -316,9 +325,7 @@ std::optional<Choice> Learner::pending() const noexcept {
 }
 
 Learner::Slot Learner::require_pending(const char* call) const {
-  if (pending_slot_ == SituationStore::kAbsent) {
-    throw InvalidValue(call, "no choice that waits for its outcome", "a choose() before it");
-  }
+  if (pending_slot_ == SituationStore::kAbsent) refuse_outcome(call);
   return pending_slot_;
 }
 

@@ -8,17 +8,17 @@
 namespace devlearn {
 namespace {
 
-// The index grows before more than 4/5 of its buckets are taken: longer searches would cost more
-// than the memory they save.
-constexpr std::size_t kLeastBuckets = 20;
+// The index grows before more than two thirds of its buckets are taken: longer searches would cost
+// more than the memory they save.
+constexpr std::size_t kLeastBuckets = 12;
 
-std::size_t situations_for(std::size_t buckets) noexcept { return buckets / 5 * 4; }
+std::size_t situations_for(std::size_t buckets) noexcept { return buckets / 3 * 2; }
 
 std::size_t buckets_for(std::size_t situations) noexcept {
-  return std::max(kLeastBuckets, (situations + 3) / 4 * 5);
+  return std::max(kLeastBuckets, (situations + 1) / 2 * 3);
 }
 
-// All ones, and more than any slot of so many situations: no entry is kAbsent.
+// All ones, and more than any number of so many situations: no entry is kEmpty.
 std::uint32_t mask_for(std::size_t situations) noexcept {
   std::uint64_t mask = 1;
   while (mask < situations) mask = 2 * mask + 1;
@@ -30,8 +30,8 @@ std::uint32_t mask_for(std::size_t situations) noexcept {
 SituationStore::SituationStore(int motion_count)
     : motion_count_(motion_count),
       block_bytes_(sizeof(SituationId) + MotorMemory::bytes(motion_count)),
-      buckets_(kLeastBuckets, kAbsent),
-      slot_mask_(mask_for(situations_for(kLeastBuckets))) {}
+      buckets_(kLeastBuckets, kEmpty),
+      number_mask_(mask_for(situations_for(kLeastBuckets))) {}
 
 void SituationStore::begin_block(std::byte* block, SituationId situation) const noexcept {
   std::memcpy(block, &situation, sizeof situation);
@@ -46,33 +46,40 @@ MotorMemory SituationStore::look_up(SituationId situation, std::vector<std::byte
 }
 
 void SituationStore::reserve(std::size_t situations) {
-  if (situations >= kAbsent) {
+  if (situations >= kEmpty) {
     throw InvalidValue("situations", std::to_string(situations), "at most 4294967294");
   }
-  if (situations * block_bytes_ > blocks_.size()) blocks_.resize(situations * block_bytes_);
+  if (situations * block_bytes_ > blocks_.size()) {
+    decltype(blocks_) roomier(situations * block_bytes_);
+    std::memcpy(roomier.data(), blocks_.data(), size_ * block_bytes_);
+    blocks_.swap(roomier);
+  }
   if (situations > situations_for(buckets_.size())) {
-    buckets_ = decltype(buckets_)(buckets_for(situations), kAbsent);
-    slot_mask_ = mask_for(situations_for(buckets_.size()));
-    for (Slot slot = 0; slot < size_; ++slot) put(slot, bucket_of(id(slot)));
+    buckets_ = decltype(buckets_)(buckets_for(situations), kEmpty);
+    number_mask_ = mask_for(situations_for(buckets_.size()));
+    for (std::size_t n = 0; n < size_; ++n) {
+      const SituationId situation = id(nth(n));
+      put(static_cast<std::uint32_t>(n), situation, look_for(situation).bucket);
+    }
   }
 }
 
 SituationStore::Slot SituationStore::add(SituationId situation, std::size_t bucket) {
   const std::size_t size = size_ + 1;
   if (size * block_bytes_ > blocks_.size() || size > situations_for(buckets_.size())) {
-    reserve(std::max(size, std::min<std::size_t>(size_ + size_ / 2 + 8, kAbsent - 1)));
-    bucket = bucket_of(situation);
+    const std::size_t doubled = std::min<std::size_t>(2 * size_, kEmpty - 1);
+    reserve(std::max({size, doubled, situations_for(kLeastBuckets)}));
+    bucket = look_for(situation).bucket;
   }
-  const auto slot = static_cast<Slot>(size_);
-  begin_block(blocks_.data() + slot * block_bytes_, situation);
-  put(slot, bucket);
+  const Slot slot = nth(size_);
+  begin_block(blocks_.data() + slot, situation);
+  put(static_cast<std::uint32_t>(size_), situation, bucket);
   size_ = size;
   return slot;
 }
 
-void SituationStore::put(Slot slot, std::size_t bucket) noexcept {
-  const auto mark = static_cast<std::uint32_t>(scattered(id(slot))) & ~slot_mask_;
-  buckets_[bucket] = mark | slot;
+void SituationStore::put(std::uint32_t number, SituationId situation, std::size_t bucket) noexcept {
+  buckets_[bucket] = number | (mark_of(scattered(situation)) & ~number_mask_);
 }
 
 MemoryUse SituationStore::memory_use() const noexcept {

@@ -50,47 +50,46 @@ inline int outcome_count(const MotorMemory& memory) noexcept {
   return left > 0 ? left : memory.motion_count();
 }
 
-/// Eq. 7 for effective motion j, its own curiosity active or not.
-inline double op(const MotorMemory& memory, int j, bool curious, double sigma,
-                 const Curiosity& curiosity) noexcept {
-  const double value = sigma * memory.orientation(j);
-  return curious ? value + (1.0 - sigma) * curiosity(memory.times_learned(j)) : value;
+/// Eq. 7: op = sigma O + (1 - sigma) C', where C' is 0 for a motion whose curiosity is not active.
+inline double op(double orientation, double curiosity, double sigma) noexcept {
+  return sigma * orientation + (1.0 - sigma) * curiosity;
 }
 
-/// What each outcome, 0 <= outcome < outcome_count, means. The first n_R name an unexplored motion,
-/// and that one is explored: probability n_R / (n_i + n_R), uniform within RM_i. Each other one
-/// names an effective motion, whose curiosity is active, and the largest
-///   op = sigma O + (1 - sigma) C'
-/// wins, the first in M_i among equals. With nothing left to draw from, it is any motion, all of
-/// them ineffective. So the list that the motion stands in says why it was chosen.
-inline MotorMemory::Position choose_motion(const MotorMemory& memory, int outcome, double sigma,
-                                           const Curiosity& curiosity) noexcept {
+/// What each outcome, 0 <= outcome < outcome_count, means: the place of the motion to execute. The
+/// first n_R name an unexplored motion, and that one is explored: probability n_R / (n_i + n_R),
+/// uniform within RM_i. Each other one names an effective motion, whose curiosity is active, and
+/// the largest op (Eq. 7) wins, the first in M_i among equals. With nothing left to draw from, it
+/// is any motion, all of them ineffective. So the list that the place belongs to says why.
+inline int choose_motion(const MotorMemory& memory, int outcome, double sigma,
+                         const Curiosity& curiosity) noexcept {
   const int n = memory.effective_count(), unexplored = memory.unexplored_count();
-  if (outcome < unexplored) return {MotorMemory::List::kUnexplored, outcome};
-  if (n == 0) return memory.find(outcome);
+  if (outcome < unexplored) return memory.tried_count() + outcome;
+  if (n == 0) return memory.place_of(outcome);
 
   const int curious = outcome - unexplored;
+  const double active = curiosity(memory.times_learned(curious));
   int winner = 0;
   double highest = -1.0;
   for (int j = 0; j < n; ++j) {
-    const double value = op(memory, j, j == curious, sigma, curiosity);
+    const double value = op(memory.orientation(j), j == curious ? active : 0.0, sigma);
     if (value > highest) {
       highest = value;
       winner = j;
     }
   }
-  return {MotorMemory::List::kEffective, winner};
+  return winner;
 }
 
-/// The motion that stands there, and why it was chosen.
-inline Choice choice_at(const MotorMemory& memory, MotorMemory::Position position) noexcept {
-  switch (position.list) {
+/// The motion at a place, and why it was chosen.
+inline Choice choice_at(const MotorMemory& memory, int place) noexcept {
+  const int motion = memory.motion(place);
+  switch (memory.list(place)) {
     case MotorMemory::List::kEffective:
-      return {memory.effective(position.index), Kind::kExploit};
+      return {motion, Kind::kExploit};
     case MotorMemory::List::kUnexplored:
-      return {memory.unexplored(position.index), Kind::kExplore};
+      return {motion, Kind::kExplore};
     default:
-      return {memory.ineffective(position.index), Kind::kExhausted};
+      return {motion, Kind::kExhausted};
   }
 }
 

@@ -182,7 +182,7 @@ class Learner {
  private:
   using Slot = SituationStore::Slot;
 
-  Development develop(Slot slot, int motion, MotorMemory::Position position, double smf) noexcept;
+  Development develop(Slot slot, int place, double smf) noexcept;
   Slot require_pending(const char* call) const;
 
   LearnerConfig config_;
@@ -193,7 +193,7 @@ class Learner {
 
   Slot pending_slot_ = SituationStore::kAbsent;
   Choice pending_choice_;
-  MotorMemory::Position pending_position_{};  // where its motion stands
+  int pending_place_ = -1;  // where its motion stands
   // The last choice: the block as it was, and what was drawn.
   std::vector<std::byte> last_block_;
   int last_outcome_ = -1;

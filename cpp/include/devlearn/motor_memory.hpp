@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace devlearn {
@@ -39,23 +40,17 @@ class MotorMemory {
   /// Makes the storage a situation never experienced: every motion unexplored.
   void clear() noexcept;
 
-  int motion_count() const noexcept { return motion_count_; }   ///< N_M
-  int effective_count() const noexcept { return sizes_[0]; }    ///< n_i
-  int ineffective_count() const noexcept { return sizes_[1]; }  ///< n-bar_i
-  int unexplored_count() const noexcept {                       ///< n_R
-    return motion_count_ - effective_count() - ineffective_count();
-  }
+  int motion_count() const noexcept { return motion_count_; }                      ///< N_M
+  int effective_count() const noexcept { return sizes_[0]; }                       ///< n_i
+  int ineffective_count() const noexcept { return sizes_[1]; }                     ///< n-bar_i
+  int tried_count() const noexcept { return sizes_[0] + sizes_[1]; }               ///< of both
+  int unexplored_count() const noexcept { return motion_count_ - tried_count(); }  ///< n_R
 
-  ///@{
-  /// The j-th motion of a list.
-  int effective(int j) const noexcept { return motions_[j]; }
-  int ineffective(int j) const noexcept { return motions_[effective_count() + j]; }
-  int unexplored(int j) const noexcept {
-    return motions_[effective_count() + ineffective_count() + j];
-  }
-  ///@}
-  double orientation(int j) const noexcept { return orientation_[j]; }  ///< o_ij of effective(j)
-  /// n_ij of effective(j).
+  /// The motion at a place of the array, 0 <= place < N_M.
+  int motion(int place) const noexcept { return motions_[place]; }
+  /// o_ij of effective motion j, the one at place j.
+  double orientation(int j) const noexcept { return orientation_[j]; }
+  /// n_ij of effective motion j.
   std::uint32_t times_learned(int j) const noexcept { return times_learned_[j]; }
 
   /// The three lists.
@@ -64,33 +59,25 @@ class MotorMemory {
     kIneffective,  ///< M-bar_i
     kUnexplored,   ///< RM_i
   };
-  /// Where a motion stands.
-  struct Position {
-    List list;  ///< in which
-    int index;  ///< from 0
-  };
+  /// The list that a place belongs to.
+  List list(int place) const noexcept {
+    if (place < effective_count()) return List::kEffective;
+    return place < tried_count() ? List::kIneffective : List::kUnexplored;
+  }
   /// Where a motion of M stands.
-  Position find(int motion) const noexcept {
+  int place_of(int motion) const noexcept {
     int place = 0;
     for (int i = 1; i < motion_count_; ++i) place = motions_[i] == motion ? i : place;
-    if (place < effective_count()) return {List::kEffective, place};
-    place -= effective_count();
-    if (place < ineffective_count()) return {List::kIneffective, place};
-    return {List::kUnexplored, place - ineffective_count()};
+    return place;
   }
 
-  /// Extension development, Eq. 10-13: the motion at `from` (unexplored, or ineffective when it is
+  /// Extension development, Eq. 10-13: the motion at `place` (unexplored, or ineffective when it is
   /// retried) becomes the last of M_i with orientation 1/(n+1); the others shrink by n/(n+1).
-  void extend(Position from) noexcept {
+  void extend(int place) noexcept {
     const int n = effective_count();
-    int place = n + from.index;
-    if (from.list == List::kUnexplored) {
-      place += ineffective_count();
-    } else {
-      --sizes_[1];
-    }
+    if (list(place) == List::kIneffective) --sizes_[1];
     // Eq. 10: M_i = [M_i, m].
-    move_motion(place, n);
+    move(motions_, place, n);
     // Eq. 11
     const double shrunk = static_cast<double>(n) / (n + 1);
     for (int j = 0; j < n; ++j) orientation_[j] *= shrunk;
@@ -101,10 +88,9 @@ class MotorMemory {
     ++sizes_[0];
   }
 
-  /// An explored motion proved ineffective: from RM_i to the end of M-bar_i.
-  void reject(int unexplored_index) noexcept {
-    const int tried = effective_count() + ineffective_count();
-    move_motion(tried + unexplored_index, tried);
+  /// The unexplored motion at `place` proved ineffective: to the end of M-bar_i.
+  void reject(int place) noexcept {
+    move(motions_, place, tried_count());
     ++sizes_[1];
   }
 
@@ -164,23 +150,22 @@ class MotorMemory {
  private:
   static constexpr std::size_t kSizesBytes = 8;  // two of 2 bytes, and room that aligns the rest
 
-  // What stands between moves up or down by one.
-  void move_motion(int from, int to) noexcept {
-    const std::uint16_t motion = motions_[from];
-    for (; from > to; --from) motions_[from] = motions_[from - 1];
-    for (; from < to; ++from) motions_[from] = motions_[from + 1];
-    motions_[to] = motion;
+  // What stands between moves up or down by one. Lists are short: calls of memmove would cost more.
+  template <typename T>
+  static void move(T* values, int from, int to) noexcept {
+    T carried = values[from];
+    for (int i = to; i < from; ++i) std::swap(carried, values[i]);
+    for (int i = to; i > from; --i) std::swap(carried, values[i]);
+    values[from] = carried;
   }
 
   // Eq. 15-17: motion k leaves M_i for the end of M-bar_i; the motions after it move up, each with
   // its own orientation and count.
   void remove_effective(int k) noexcept {
-    const int n = effective_count();
-    move_motion(k, n + ineffective_count() - 1);
-    for (int j = k + 1; j < n; ++j) {
-      orientation_[j - 1] = orientation_[j];
-      times_learned_[j - 1] = times_learned_[j];
-    }
+    const int last = effective_count() - 1;
+    move(motions_, k, tried_count() - 1);
+    move(orientation_, k, last);
+    move(times_learned_, k, last);
     --sizes_[0];
     ++sizes_[1];
   }

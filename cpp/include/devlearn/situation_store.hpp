@@ -23,22 +23,24 @@ struct MemoryUse {
 /// that does not grow with their number.
 class SituationStore {
  public:
-  using Slot = std::uint32_t;                   ///< a block's number, from 0
-  static constexpr Slot kAbsent = 0xffffffffU;  ///< no block's
+  using Slot = std::size_t;                               ///< where a block begins [bytes]
+  static constexpr Slot kAbsent = static_cast<Slot>(-1);  ///< no block's
 
   /// motion_count: N_M.
   explicit SituationStore(int motion_count);
 
   /// Where a situation is, or kAbsent.
-  Slot find(SituationId situation) const noexcept { return slot_in(bucket_of(situation)); }
+  Slot find(SituationId situation) const noexcept { return look_for(situation).slot; }
 
   /// The same, after adding it where it is missing, with every motion unexplored. Throws
   /// std::bad_alloc; then nothing has changed.
   Slot find_or_add(SituationId situation) {
-    const std::size_t bucket = bucket_of(situation);
-    const Slot found = slot_in(bucket);
-    return found != kAbsent ? found : add(situation, bucket);
+    const Found found = look_for(situation);
+    return found.slot != kAbsent ? found.slot : add(situation, found.bucket);
   }
+
+  /// The block of the n-th situation, from 0 and in the order they came.
+  Slot nth(std::size_t n) const noexcept { return n * block_bytes_; }
 
   /// Which situation a block is of.
   SituationId id(Slot slot) const noexcept { return id_in(block(slot)); }
@@ -63,7 +65,7 @@ class SituationStore {
   ///@{
   /// A block's bytes, for whoever keeps a copy, and what a copy holds.
   std::size_t block_bytes() const noexcept { return block_bytes_; }
-  const std::byte* block(Slot slot) const noexcept { return blocks_.data() + slot * block_bytes_; }
+  const std::byte* block(Slot slot) const noexcept { return blocks_.data() + slot; }
   static SituationId id_in(const std::byte* block) noexcept {
     SituationId id = 0;
     std::memcpy(&id, block, sizeof id);
@@ -75,47 +77,51 @@ class SituationStore {
   ///@}
 
  private:
-  // Spreads neighbouring ids over all 64 bits.
+  // Spreads neighbouring ids over the upper bits.
   static std::uint64_t scattered(SituationId situation) noexcept {
-    auto bits = static_cast<std::uint64_t>(situation) * 0x9e3779b97f4a7c15U;
-    bits = (bits ^ (bits >> 32)) * 0xd6e8feb86659fd93U;
-    return bits ^ (bits >> 32);
+    const auto bits = static_cast<std::uint64_t>(situation) * 0x9e3779b97f4a7c15U;
+    return (bits ^ (bits >> 32)) * 0xd6e8feb86659fd93U;
+  }
+  // Of the bits below those that say where to begin.
+  static std::uint32_t mark_of(std::uint64_t hash) noexcept {
+    return static_cast<std::uint32_t>(hash >> 8);
   }
 
-  // The bucket that a situation is in, or that it would be put in. The upper half of its hash says
-  // where to begin; the lower half marks what lies in the bucket, so that other blocks are hardly
-  // ever looked at.
-  std::size_t bucket_of(SituationId situation) const noexcept {
+  struct Found {
+    Slot slot;           // kAbsent where the bucket is empty
+    std::size_t bucket;  // that a situation is in, or that it would be put in
+  };
+  // The upper half of a situation's hash says in which bucket to begin; the mark says what lies in
+  // one, so that other blocks are hardly ever looked at.
+  Found look_for(SituationId situation) const noexcept {
     const std::uint64_t hash = scattered(situation);
     const std::size_t count = buckets_.size();
     std::size_t bucket = (hash >> 33) * count >> 31;
     for (;;) {
       const std::uint32_t entry = buckets_[bucket];
-      if (entry == kAbsent) return bucket;
-      if (((entry ^ static_cast<std::uint32_t>(hash)) & ~slot_mask_) == 0 &&
-          id(entry & slot_mask_) == situation) {
-        return bucket;
+      if (entry == kEmpty) return {kAbsent, bucket};
+      if (((entry ^ mark_of(hash)) & ~number_mask_) == 0) {
+        const Slot slot = nth(entry & number_mask_);
+        if (id(slot) == situation) return {slot, bucket};
       }
       if (++bucket == count) bucket = 0;
     }
   }
 
-  Slot slot_in(std::size_t bucket) const noexcept {
-    const std::uint32_t entry = buckets_[bucket];
-    return entry == kAbsent ? kAbsent : entry & slot_mask_;
-  }
-
   void begin_block(std::byte* block, SituationId situation) const noexcept;
   Slot add(SituationId situation, std::size_t bucket);
-  void put(Slot slot, std::size_t bucket) noexcept;
+  void put(std::uint32_t number, SituationId situation, std::size_t bucket) noexcept;
+
+  static constexpr std::uint32_t kEmpty = 0xffffffffU;
 
   int motion_count_;
   std::size_t block_bytes_;
   std::size_t size_ = 0;
   std::vector<std::byte, PageAllocator<std::byte>> blocks_;
-  // An open-addressing index. An entry is a slot in its lower bits and, above slot_mask_, the mark.
+  // An open-addressing index. An entry is a block's number in its lower bits and, above
+  // number_mask_, the mark.
   std::vector<std::uint32_t, PageAllocator<std::uint32_t>> buckets_;
-  std::uint32_t slot_mask_ = 0;
+  std::uint32_t number_mask_ = 0;
 };
 
 }  // namespace devlearn

@@ -27,8 +27,8 @@ struct Situation {
       : storage(MotorMemory::bytes(lists.motion_count()) / 8),
         memory(storage.data(), lists.motion_count()) {
     memory.clear();
-    for (int i = 0; i < lists.effective; ++i) memory.extend({MotorMemory::List::kUnexplored, 0});
-    for (int i = 0; i < lists.ineffective; ++i) memory.reject(0);
+    for (int i = 0; i < lists.effective; ++i) memory.extend(memory.tried_count());
+    for (int i = 0; i < lists.ineffective; ++i) memory.reject(memory.tried_count());
   }
 
   std::vector<std::uint64_t> storage;
@@ -174,9 +174,9 @@ TEST_CASE("Eq. 7: the first in M_i wins among equals") {
   std::vector<std::uint64_t> storage(MotorMemory::bytes(5) / 8);
   MotorMemory memory(storage.data(), 5);
   memory.clear();
-  for (const int motion : {3, 1, 4, 0}) memory.extend(memory.find(motion));
+  for (const int motion : {3, 1, 4, 0}) memory.extend(memory.place_of(motion));
   for (int k = 0; k < 4; ++k) memory.count_learning(k);
-  memory.reject(0);
+  memory.reject(memory.tried_count());
   for (int i = 0; i < 1000; ++i) REQUIRE(chosen(memory, random).motion == 3);
 }
 

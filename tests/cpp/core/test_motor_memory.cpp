@@ -25,7 +25,7 @@ struct Fresh {
 
   // The same with these motions effective, in this order.
   Fresh(int motion_count, const Motions& effective) : Fresh(motion_count) {
-    for (const int motion : effective) memory.extend(memory.find(motion));
+    for (const int motion : effective) memory.extend(memory.place_of(motion));
   }
 
   std::vector<std::uint64_t> storage;
@@ -60,29 +60,21 @@ TEST_CASE("Eq. 3-4: a situation never experienced has every motion unexplored, a
 TEST_CASE("Eq. 3-4: each motion is found in the one list that holds it") {
   Fresh fresh(5, {3, 1});
   MotorMemory& memory = fresh.memory;
-  memory.reject(memory.find(4).index);
-  CHECK(memory.find(3).list == List::kEffective);
-  CHECK(memory.find(3).index == 0);
-  CHECK(memory.find(1).list == List::kEffective);
-  CHECK(memory.find(1).index == 1);
-  CHECK(memory.find(4).list == List::kIneffective);
-  CHECK(memory.find(4).index == 0);
-  CHECK(memory.find(0).list == List::kUnexplored);
-  CHECK(memory.find(0).index == 0);
-  CHECK(memory.find(2).list == List::kUnexplored);
-  CHECK(memory.find(2).index == 1);
-  for (int j = 0; j < memory.effective_count(); ++j) {
-    CHECK(memory.find(memory.effective(j)).index == j);
+  memory.reject(memory.place_of(4));
+  const List lists[] = {List::kEffective, List::kEffective, List::kIneffective, List::kUnexplored,
+                        List::kUnexplored};
+  const int motions[] = {3, 1, 4, 0, 2};
+  for (int place = 0; place < 5; ++place) {
+    CHECK(memory.motion(place) == motions[place]);
+    CHECK(memory.list(place) == lists[place]);
+    CHECK(memory.place_of(motions[place]) == place);
   }
-  CHECK(memory.ineffective(0) == 4);
-  CHECK(memory.unexplored(0) == 0);
-  CHECK(memory.unexplored(1) == 2);
 }
 
 TEST_CASE("Eq. 10, 12, 13: an extension appends the motion, learned once") {
   Fresh fresh(5, {3, 1});
   fresh.memory.count_learning(0);
-  fresh.memory.extend(fresh.memory.find(4));
+  fresh.memory.extend(fresh.memory.place_of(4));
   const SituationMemory copy = fresh.memory.copy();
   CHECK(copy.effective == Motions{3, 1, 4});
   CHECK(copy.unexplored == Motions{0, 2});
@@ -92,22 +84,22 @@ TEST_CASE("Eq. 10, 12, 13: an extension appends the motion, learned once") {
 TEST_CASE("Eq. 11: an extension gives 1/(n+1) to the new motion and n/(n+1) of theirs to others") {
   Fresh fresh(5, {0});
   check_orientation(fresh.memory, {1.0});
-  fresh.memory.extend(fresh.memory.find(1));
+  fresh.memory.extend(fresh.memory.place_of(1));
   check_orientation(fresh.memory, {0.5, 0.5});
   fresh.memory.orient(0, 0.5);  // 0.75/1.25, 0.5/1.25
   check_orientation(fresh.memory, {0.6, 0.4});
-  fresh.memory.extend(fresh.memory.find(2));
+  fresh.memory.extend(fresh.memory.place_of(2));
   check_orientation(fresh.memory, {0.4, 0.8 / 3, 1.0 / 3});
-  fresh.memory.extend(fresh.memory.find(3));
+  fresh.memory.extend(fresh.memory.place_of(3));
   check_orientation(fresh.memory, {0.3, 0.2, 0.25, 0.25});
 }
 
 TEST_CASE("Eq. 10-13: a retried motion leaves the ineffective list, the rest keeps its order") {
   Fresh fresh(5, {2});
   MotorMemory& memory = fresh.memory;
-  for (const int motion : {4, 0, 3}) memory.reject(memory.find(motion).index);
+  for (const int motion : {4, 0, 3}) memory.reject(memory.place_of(motion));
   CHECK(memory.copy().ineffective == Motions{4, 0, 3});
-  memory.extend(memory.find(0));
+  memory.extend(memory.place_of(0));
   CHECK(memory.copy().effective == Motions{2, 0});
   CHECK(memory.copy().ineffective == Motions{4, 3});
   CHECK(memory.copy().unexplored == Motions{1});
@@ -116,7 +108,7 @@ TEST_CASE("Eq. 10-13: a retried motion leaves the ineffective list, the rest kee
 
 TEST_CASE("a rejected motion goes to the end of the ineffective list, the unexplored keep order") {
   Fresh fresh(4);
-  for (const int motion : {2, 0}) fresh.memory.reject(fresh.memory.find(motion).index);
+  for (const int motion : {2, 0}) fresh.memory.reject(fresh.memory.place_of(motion));
   CHECK(fresh.memory.copy().ineffective == Motions{2, 0});
   CHECK(fresh.memory.copy().unexplored == Motions{1, 3});
   CHECK(fresh.memory.effective_count() == 0);
@@ -195,7 +187,7 @@ TEST_CASE("Eq. 14-17: the threshold is 1/(3 n), to the last digits") {
       CAPTURE(n);
       CAPTURE(nudge);
       Fresh fresh(5);
-      while (fresh.memory.effective_count() < n) fresh.memory.extend({List::kUnexplored, 0});
+      while (fresh.memory.effective_count() < n) fresh.memory.extend(fresh.memory.tried_count());
       fresh.memory.orient(0, d + nudge);
       CHECK(fresh.memory.reduce() == (nudge > 0.0 ? 0 : 1));
     }
@@ -259,18 +251,18 @@ TEST_CASE("a motion that comes back is learned anew") {
   Fresh fresh(2, {1, 0});
   for (int i = 0; i < 6; ++i) fresh.memory.count_learning(0);
   fresh.memory.abandon(0);
-  fresh.memory.extend(fresh.memory.find(1));
+  fresh.memory.extend(fresh.memory.place_of(1));
   CHECK(fresh.memory.copy().effective == Motions{0, 1});
   CHECK(fresh.memory.copy().times_learned == std::vector<std::uint32_t>{1, 1});
 }
 
 TEST_CASE("the largest memory holds 65 535 motions") {
   Fresh fresh(65535, {65534, 0});
-  while (fresh.memory.unexplored_count() > 0) fresh.memory.reject(0);
+  while (fresh.memory.unexplored_count() > 0) fresh.memory.reject(fresh.memory.tried_count());
   CHECK(fresh.memory.effective_count() == 2);
   CHECK(fresh.memory.ineffective_count() == 65533);
-  CHECK(fresh.memory.ineffective(0) == 1);
-  CHECK(fresh.memory.ineffective(65532) == 65533);
-  fresh.memory.extend(fresh.memory.find(65533));
+  CHECK(fresh.memory.motion(2) == 1);
+  CHECK(fresh.memory.motion(65534) == 65533);
+  fresh.memory.extend(fresh.memory.place_of(65533));
   CHECK(fresh.memory.copy().effective == Motions{65534, 0, 65533});
 }
