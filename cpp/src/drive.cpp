@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "box2d_vector.hpp"
@@ -17,6 +18,10 @@ namespace {
 constexpr double kLongestSubstep = 0.0034;
 constexpr int kLeastSubsteps = 15;
 constexpr int kPositionRounds = 3;
+
+// So near where it began the body keeps the box in which Box2D first put it, grown by
+// b2_aabbExtension to all sides [m].
+constexpr float kFirstBox = 0.09f;
 
 // The part of an edge near a point, so that floats lose nothing to faraway corners.
 World::Edge near_part(const World::Edge& edge, Point point, double reach) {
@@ -72,6 +77,48 @@ float way_to(const b2EdgeShape& edge, const b2CircleShape& body) {
 float way_to(const b2CircleShape& circle, const b2CircleShape& body) {
   return static_cast<float>(circle.m_p.Length() - circle.m_radius - body.m_radius - kTouchMargin);
 }
+
+// What is touched, and how.
+struct Contact {
+  std::size_t surface = 0;  // edges by index, then circles
+  b2Manifold manifold;
+  float radius = 0.0f;  // of the surface
+  b2Vec2 normal = b2Vec2_zero;
+  float impulse = 0.0f;
+};
+
+// The places of a scene's surfaces in the order in which Box2D solves the body's contacts: the
+// reverse of that in which its tree of boxes, which depends on all of them, finds what is near.
+class SolvingOrder {
+ public:
+  explicit SolvingOrder(const Scene& scene) : left_(scene.edges.size() + scene.circles.size() + 1) {
+    places_.resize(left_);
+    std::size_t count = 0;
+    const auto add = [&](const b2Shape& shape) {
+      b2AABB box;
+      shape.ComputeAABB(&box, {b2Vec2_zero, b2Rot(0.0f)}, 0);
+      return tree_.CreateProxy(box, reinterpret_cast<void*>(count++));
+    };
+    for (const b2EdgeShape& edge : scene.edges) add(edge);
+    for (const b2CircleShape& circle : scene.circles) add(circle);
+    tree_.Query(this, tree_.GetFatAABB(add(scene.body)));
+  }
+  SolvingOrder(const SolvingOrder&) = delete;
+  SolvingOrder& operator=(const SolvingOrder&) = delete;
+
+  std::size_t place(const Contact& contact) const { return places_[contact.surface]; }
+
+  // Box2D's.
+  bool QueryCallback(int32 proxy) {
+    places_[reinterpret_cast<std::uintptr_t>(tree_.GetUserData(proxy))] = --left_;
+    return true;
+  }
+
+ private:
+  b2DynamicTree tree_;
+  std::size_t left_;
+  std::vector<std::size_t> places_;
+};
 
 float substep_time(const RobotDef& robot, int substeps) {
   return static_cast<float>(robot.sample_time / substeps);
@@ -130,8 +177,8 @@ Drive drive_in_box2d(const World::Surroundings& near, const RobotDef& robot, Poi
 
 // b2World::Step, with b2ContactSolver's operations in their order. What they multiply by zero here
 // (turning, friction, restitution, the ground's motion) is left out.
-std::optional<Drive> drive_along_one(const World::Surroundings& near, const RobotDef& robot,
-                                     Point from, double heading, int substeps, int rounds) {
+std::optional<Drive> drive_directly(const World::Surroundings& near, const RobotDef& robot,
+                                    Point from, double heading, int substeps, int rounds) {
   const Scene scene(near, robot, from, heading);
   const float time = substep_time(robot, substeps);
   b2MassData mass;
@@ -147,55 +194,71 @@ std::optional<Drive> drive_along_one(const World::Surroundings& near, const Robo
   for (const b2CircleShape& circle : scene.circles) ways.push_back(way_to(circle, scene.body));
 
   Drive drive;
+  std::vector<Contact> contacts;
+  std::optional<SolvingOrder> order;
+  bool in_first_box = true;
   for (int i = 0; i < substeps; ++i) {
-    // What is touched?
-    int touching = 0;
-    b2Manifold contact;
-    float radius = 0.0f;
-    const float* way = ways.data();
+    contacts.clear();
+    std::size_t surface = 0;
     const float gone = at.p.Length();
     const auto meet = [&](auto collide, const auto& shape) {
-      if (gone < *way++) return;
-      b2Manifold manifold;
-      collide(&manifold, &shape, ground, &scene.body, at);
-      if (manifold.pointCount == 0) return;
-      ++touching;
-      contact = manifold;
-      radius = shape.m_radius;
+      const std::size_t here = surface++;
+      if (gone < ways[here]) return;
+      Contact contact;
+      collide(&contact.manifold, &shape, ground, &scene.body, at);
+      if (contact.manifold.pointCount == 0) return;
+      contact.surface = here;
+      contact.radius = shape.m_radius;
+      contacts.push_back(contact);
     };
     for (const b2EdgeShape& edge : scene.edges) meet(b2CollideEdgeAndCircle, edge);
     for (const b2CircleShape& circle : scene.circles) meet(b2CollideCircles, circle);
-    if (touching > 1) return std::nullopt;
-    if (touching == 0) {
-      at.p += time * velocity;
-      continue;
+    in_first_box = in_first_box && gone < kFirstBox;
+    if (contacts.size() > 1) {
+      if (!in_first_box) return std::nullopt;
+      if (!order) order.emplace(scene);
+      std::sort(contacts.begin(), contacts.end(), [&](const Contact& a, const Contact& b) {
+        return order->place(a) < order->place(b);
+      });
     }
-    drive.touched = true;
+    drive.touched = drive.touched || !contacts.empty();
 
-    // Impulses take away what leads into the surface, and never pull.
-    b2WorldManifold place;
-    place.Initialize(&contact, ground, radius, at, scene.body.m_radius);
-    float impulse = 0.0f;
-    for (int round = 0; round < rounds; ++round) {
-      const float sum = b2Max(impulse - normal_mass * b2Dot(velocity, place.normal), 0.0f);
-      const float added = sum - impulse;
-      if (added == 0.0f) break;  // nor will a further round
-      impulse = sum;
-      velocity += inverse_mass * (added * place.normal);
+    for (Contact& contact : contacts) {
+      b2WorldManifold place;
+      place.Initialize(&contact.manifold, ground, contact.radius, at, scene.body.m_radius);
+      contact.normal = place.normal;
+    }
+    // Impulses take away what leads into the surfaces, and never pull.
+    bool changing = true;
+    for (int round = 0; round < rounds && changing; ++round) {
+      changing = false;
+      for (Contact& contact : contacts) {
+        const float inward = b2Dot(velocity, contact.normal);
+        const float sum = b2Max(contact.impulse - normal_mass * inward, 0.0f);
+        const float added = sum - contact.impulse;
+        contact.impulse = sum;
+        velocity += inverse_mass * (added * contact.normal);
+        changing = changing || added != 0.0f;
+      }
     }
     at.p += time * velocity;
 
     // What lies deeper than the slop is pushed out, a part a round.
-    for (int round = 0; round < kPositionRounds; ++round) {
-      const bool round_surface = contact.type == b2Manifold::e_circles;
-      b2Vec2 normal = round_surface ? at.p - contact.localPoint : contact.localNormal;
-      if (round_surface) normal.Normalize();
-      const float separation =
-          b2Dot(at.p - contact.localPoint, normal) - radius - scene.body.m_radius;
-      const float push =
-          b2Clamp(b2_baumgarte * (separation + b2_linearSlop), -b2_maxLinearCorrection, 0.0f);
-      at.p += inverse_mass * ((-push / inverse_mass) * normal);
-      if (separation >= -3.0f * b2_linearSlop) break;
+    float deepest = -b2_maxFloat;
+    for (int round = 0; round < kPositionRounds && deepest < -3.0f * b2_linearSlop; ++round) {
+      deepest = 0.0f;
+      for (const Contact& contact : contacts) {
+        const bool round_surface = contact.manifold.type == b2Manifold::e_circles;
+        b2Vec2 normal =
+            round_surface ? at.p - contact.manifold.localPoint : contact.manifold.localNormal;
+        if (round_surface) normal.Normalize();
+        const float separation = b2Dot(at.p - contact.manifold.localPoint, normal) -
+                                 contact.radius - scene.body.m_radius;
+        deepest = b2Min(deepest, separation);
+        const float push =
+            b2Clamp(b2_baumgarte * (separation + b2_linearSlop), -b2_maxLinearCorrection, 0.0f);
+        at.p += inverse_mass * ((-push / inverse_mass) * normal);
+      }
     }
   }
   drive.moved = {at.p.x, at.p.y};

@@ -27,9 +27,10 @@ double reach_of(const RobotDef& robot);
 Drive drive_in_box2d(const World::Surroundings& near, const RobotDef& robot, Point from,
                      double heading, int substeps, int rounds);
 
-/// The same to the bit, where the body never touches two surfaces at once; else nothing. Box2D's
-/// own arithmetic for one disc that does not turn, without its bookkeeping.
-std::optional<Drive> drive_along_one(const World::Surroundings& near, const RobotDef& robot,
-                                     Point from, double heading, int substeps, int rounds);
+/// The same to the bit, by Box2D's own arithmetic for one disc that does not turn, without its
+/// bookkeeping. Nothing where the body touches several things at once so far from where it began
+/// that Box2D may have sorted them anew.
+std::optional<Drive> drive_directly(const World::Surroundings& near, const RobotDef& robot,
+                                    Point from, double heading, int substeps, int rounds);
 
 }  // namespace devlearn

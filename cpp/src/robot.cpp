@@ -153,7 +153,7 @@ Robot::Step Robot::step(const Pose& pose, int motion) const {
   const World::Surroundings near = world_->around(from, reach_of(def_));
   const int substeps = substeps_of(def_);
   for (const int rounds : {kFewRounds, kManyRounds}) {
-    auto drive = drive_along_one(near, def_, from, heading, substeps, rounds);
+    auto drive = drive_directly(near, def_, from, heading, substeps, rounds);
     if (!drive) drive = drive_in_box2d(near, def_, from, heading, substeps, rounds);
     const Step end = drive->touched ? ended(pose, heading, *drive) : straight;
     if (fits(end, rounds == kFewRounds ? kShallow : kSlop)) return end;

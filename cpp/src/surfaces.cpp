@@ -15,8 +15,9 @@ constexpr std::uint32_t kWalls = 4;  // edges that are no obstacles, the first
 
 // How far the tree reaches beyond the arena [m]: as far as what a robot may touch in a step.
 constexpr double kBorder = 1.1;
-// A cell is split unless it holds few surfaces or is small [m].
-constexpr std::size_t kFew = 4;
+// A cell is split unless it holds few surfaces or is small [m]. Where more than so many things
+// would have to be looked at one by one, they are searched for instead.
+constexpr std::size_t kFew = 4, kMany = 32;
 constexpr double kLeastSide = 0.02;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -42,6 +43,14 @@ Surfaces::Surfaces(double width, double height, std::vector<std::vector<Point>> 
     }
     outlines_.push_back({std::move(corners), bound});
   }
+  std::vector<Box> bounds;
+  for (std::size_t i = kWalls; i < edges_.size() + circles_.size(); ++i) {
+    bounds.push_back(bound(static_cast<std::uint32_t>(i)));
+  }
+  surfaces_near_ = BoxTree(bounds);
+  bounds.clear();
+  for (const Outline& outline : outlines_) bounds.push_back(outline.bound);
+  outlines_near_ = BoxTree(bounds);
   root_ = {{-kBorder, -kBorder}, std::max(width, height) + 2.0 * kBorder};
   finest_per_metre_ = static_cast<double>(kFinest) / root_.side;
   build();
@@ -71,7 +80,6 @@ void Surfaces::build() {
     all.outlines.push_back(static_cast<std::uint32_t>(i));
   }
   unfinished.front().square = root_;
-  everything_ = store(all);
   // What all cells together may come to hold, where surfaces lie so that no split parts them.
   auto room = static_cast<std::ptrdiff_t>(4096 + 32 * (all.surfaces.size() + all.outlines.size()));
 
@@ -79,10 +87,13 @@ void Surfaces::build() {
   for (; !unfinished.empty(); unfinished.pop_front()) {
     const Unfinished here = std::move(unfinished.front());
     if (here.held.surfaces.size() <= kFew || here.square.side < kLeastSide || room < 0) {
-      cells_[here.cell] = store(here.held);
+      if (here.held.surfaces.size() + here.held.outlines.size() <= kMany) {
+        cells_[here.cell] = listed(here.held);
+      }
       continue;
     }
     const std::size_t first = cells_.size();
+    cells_[here.cell].kind = Cell::Kind::kSplit;
     cells_[here.cell].first = static_cast<std::uint32_t>(first);
     cells_.resize(first + 16);
     for (int i = 0; i < 16; ++i) {
@@ -92,6 +103,15 @@ void Surfaces::build() {
       room -= static_cast<std::ptrdiff_t>(held.surfaces.size() + held.outlines.size());
     }
   }
+}
+
+Box Surfaces::bound(std::uint32_t surface) const noexcept {
+  if (surface < edges_.size()) {
+    const World::Edge& edge = edges_[surface];
+    return Box{edge.a, edge.a}.joined({edge.b, edge.b}).grown_by(kMargin);
+  }
+  const Circle& circle = circles_[surface - edges_.size()];
+  return Box{circle.center, circle.center}.grown_by(circle.radius + kMargin);
 }
 
 double Surfaces::distance(std::uint32_t surface, Point p) const noexcept {
@@ -126,8 +146,9 @@ Surfaces::Candidates Surfaces::held_in(const Square& square, const Candidates& c
   return held;
 }
 
-Surfaces::Cell Surfaces::store(const Candidates& held) {
+Surfaces::Cell Surfaces::listed(const Candidates& held) {
   Cell cell;
+  cell.kind = Cell::Kind::kListed;
   const auto end = [this] { return static_cast<std::uint32_t>(held_.size()); };
   cell.first = cell.circles = end();
   for (const std::uint32_t surface : held.surfaces) {
@@ -147,10 +168,10 @@ Surfaces::Cell Surfaces::store(const Candidates& held) {
 const Surfaces::Cell& Surfaces::leaf(Point p) const noexcept {
   const double u = (p.x - root_.low.x) * finest_per_metre_;
   const double v = (p.y - root_.low.y) * finest_per_metre_;
-  if (!(u >= 0.0 && v >= 0.0 && u < kFinest && v < kFinest)) return everything_;
+  if (!(u >= 0.0 && v >= 0.0 && u < kFinest && v < kFinest)) return outside_;
   const auto column = static_cast<std::uint32_t>(u), row = static_cast<std::uint32_t>(v);
   const Cell* cell = cells_.data();
-  for (int shift = 2 * kDepth - 2; cell->is_split(); shift -= 2) {
+  for (int shift = 2 * kDepth - 2; cell->kind == Cell::Kind::kSplit; shift -= 2) {
     cell = &cells_[cell->first + (row >> shift & 3U) * 4U + (column >> shift & 3U)];
   }
   return *cell;
@@ -158,6 +179,8 @@ const Surfaces::Cell& Surfaces::leaf(Point p) const noexcept {
 
 double Surfaces::distance(Point p) const noexcept {
   const Cell& cell = leaf(p);
+  if (inside_outline(cell, p)) return 0.0;
+  if (cell.kind == Cell::Kind::kSearched) return searched_distance(p);
   double squared = kInfinite;
   for (std::uint32_t i = cell.first; i < cell.circles; ++i) {
     const World::Edge& edge = edges_[held_[i]];
@@ -168,14 +191,29 @@ double Surfaces::distance(Point p) const noexcept {
     const Circle& circle = circles_[held_[i]];
     least = std::min(least, outside(circle, squared_length(p - circle.center)));
   }
-  return inside_outline(cell, p) ? 0.0 : least;
+  return least;
+}
+
+double Surfaces::searched_distance(Point p) const noexcept {
+  double least = kInfinite, limit = kInfinite;
+  surfaces_near_.search({p, p}, limit, [&](std::uint32_t i) {
+    least = std::min(least, distance(kWalls + i, p));
+    limit = least * least;
+  });
+  return least;
 }
 
 bool Surfaces::inside_outline(const Cell& leaf, Point p) const noexcept {
-  for (std::uint32_t i = leaf.outlines; i < leaf.last; ++i) {
-    if (outlines_[held_[i]].contains(p)) return true;
+  bool inside = false;
+  if (leaf.kind == Cell::Kind::kSearched) {
+    double limit = 0.0;
+    outlines_near_.search({p, p}, limit,
+                          [&](std::uint32_t i) { inside = inside || outlines_[i].contains(p); });
   }
-  return false;
+  for (std::uint32_t i = leaf.outlines; i < leaf.last && !inside; ++i) {
+    inside = outlines_[held_[i]].contains(p);
+  }
+  return inside;
 }
 
 bool Surfaces::Outline::contains(Point p) const noexcept {
@@ -189,78 +227,50 @@ bool Surfaces::Outline::contains(Point p) const noexcept {
   return inside;
 }
 
-template <typename F>
-bool Surfaces::visit(const Box& box, const F& f) const {
-  const Box grown = box.grown_by(kMargin);
-  if (!root_.box().contains(grown.low) || !root_.box().contains(grown.high)) return f(everything_);
-  return visit(cells_[0], root_, grown, f);
-}
-
-template <typename F>
-bool Surfaces::visit(const Cell& cell, const Square& square, const Box& box, const F& f) const {
-  if (!cell.is_split()) return f(cell);
-  const auto part_at = [&](double value, double low) {
-    return static_cast<int>(std::clamp((value - low) * (4.0 / square.side), 0.0, 3.0));
-  };
-  const int left = part_at(box.low.x, square.low.x), right = part_at(box.high.x, square.low.x);
-  const int bottom = part_at(box.low.y, square.low.y), top = part_at(box.high.y, square.low.y);
-  for (int row = bottom; row <= top; ++row) {
-    for (int column = left; column <= right; ++column) {
-      const int i = 4 * row + column;
-      if (!visit(cells_[cell.first + i], square.part(i), box, f)) return false;
-    }
-  }
-  return true;
-}
-
 bool Surfaces::keep_clear_of(Point p, Point q, double room) const noexcept {
-  const Box way{{std::min(p.x, q.x), std::min(p.y, q.y)}, {std::max(p.x, q.x), std::max(p.y, q.y)}};
   if (inside_outline(leaf(p), p)) return false;
-  return visit(way.grown_by(room), [&](const Cell& cell) {
-    for (std::uint32_t i = cell.first; i < cell.circles; ++i) {
-      if (!(swept_distance(edges_[held_[i]], p, q) > room)) return false;
-    }
-    for (std::uint32_t i = cell.circles; i < cell.outlines; ++i) {
-      if (!(swept_distance(circles_[held_[i]], p, q) > room)) return false;
-    }
-    return true;
+  bool clear = true;
+  double limit = room * room;
+  surfaces_near_.search(Box{p, p}.joined({q, q}).grown_by(kMargin), limit, [&](std::uint32_t i) {
+    const std::uint32_t surface = kWalls + i;
+    const double distance = surface < edges_.size()
+                                ? swept_distance(edges_[surface], p, q)
+                                : swept_distance(circles_[surface - edges_.size()], p, q);
+    if (distance > room) return;
+    clear = false;
+    limit = -1.0;
   });
+  return clear;
 }
 
 World::Surroundings Surfaces::around(Point p, double reach) const {
-  std::vector<std::uint32_t> edges, circles;
-  edges.reserve(16);
-  const auto edge_reached = [&](std::uint32_t i) {
-    return squared_distance(p, edges_[i].a, edges_[i].b) <= reach * reach;
-  };
-  const auto circle_reached = [&](std::uint32_t i) {
-    return devlearn::distance(p, circles_[i].center) - circles_[i].radius <= reach;
+  std::vector<std::uint32_t> found;
+  found.reserve(32);
+  const auto reached = [&](std::uint32_t surface) {
+    if (surface < edges_.size()) {
+      const World::Edge& edge = edges_[surface];
+      return squared_distance(p, edge.a, edge.b) <= reach * reach;
+    }
+    const Circle& circle = circles_[surface - edges_.size()];
+    return devlearn::distance(p, circle.center) - circle.radius <= reach;
   };
   for (std::uint32_t i = 0; i < kWalls; ++i) {
-    if (edge_reached(i)) edges.push_back(i);
+    if (reached(i)) found.push_back(i);
   }
-  visit(Box{p, p}.grown_by(reach), [&](const Cell& cell) {
-    for (std::uint32_t k = cell.first; k < cell.circles; ++k) {
-      const std::uint32_t i = held_[k];
-      if (edge_reached(i)) edges.push_back(i);
-    }
-    for (std::uint32_t k = cell.circles; k < cell.outlines; ++k) {
-      const std::uint32_t i = held_[k];
-      if (circle_reached(i)) circles.push_back(i);
-    }
-    return true;
+  double limit = reach * reach;
+  surfaces_near_.search({p, p}, limit, [&](std::uint32_t i) {
+    if (reached(kWalls + i)) found.push_back(kWalls + i);
   });
-  // Several leaves may hold the same surface.
-  for (std::vector<std::uint32_t>* const found : {&edges, &circles}) {
-    std::sort(found->begin(), found->end());
-    found->erase(std::unique(found->begin(), found->end()), found->end());
-  }
+  std::sort(found.begin(), found.end());
 
   World::Surroundings near;
-  near.edges.reserve(edges.size());
-  near.circles.reserve(circles.size());
-  for (const std::uint32_t i : edges) near.edges.push_back(edges_[i]);
-  for (const std::uint32_t i : circles) near.circles.push_back(circles_[i]);
+  const auto circles = std::lower_bound(found.begin(), found.end(), edges_.size());
+  near.edges.reserve(static_cast<std::size_t>(circles - found.begin()));
+  near.circles.reserve(static_cast<std::size_t>(found.end() - circles));
+  for (auto i = found.begin(); i != circles; ++i) near.edges.push_back(edges_[*i]);
+  for (auto i = circles; i != found.end(); ++i) {
+    near.circles.push_back(circles_[*i - edges_.size()]);
+  }
   return near;
 }
 

@@ -3,18 +3,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "box_tree.hpp"
 #include "devlearn/world.hpp"
 
 namespace devlearn {
 
-/// What a world's obstacles are bounded by, and a tree of square cells that leads from a point to
-/// the few of them that can be the nearest there.
+/// What a world's obstacles are bounded by, and how to find what is near: a hierarchy of boxes and,
+/// for what is asked at every step, a tree of square cells that leads from a point straight to the
+/// few surfaces that can be the nearest there. Where they are many the hierarchy serves.
 ///
 /// A surface (an edge or a circle) is d_s away from a cell's centre, the nearest one d. No point of
 /// the cell is further than rho from the centre, so the nearest there is at most d + rho away, and
 /// what is nearest anywhere in the cell has d_s - rho <= d + rho. These a cell holds; leaving out
 /// the others changes no result, since kMargin exceeds what rounding can do to the comparison.
-/// Moreover a cell holds every surface that has a point in it (d_s <= rho).
 class Surfaces {
  public:
   /// Of an arena with walls around (0, 0) to (width, height), outlines counter-clockwise.
@@ -38,19 +39,6 @@ class Surfaces {
   static constexpr int kDepth = 10;        // of the tree; each level has cells a quarter as wide
   static constexpr std::uint32_t kFinest = 1U << (2 * kDepth);
 
-  struct Box {  // with sides along the axes
-    Point low, high;
-    bool contains(Point p) const noexcept {
-      return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y;
-    }
-    bool overlaps(const Box& other) const noexcept {
-      return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y &&
-             other.low.y <= high.y;
-    }
-    Box grown_by(double margin) const noexcept {
-      return {{low.x - margin, low.y - margin}, {high.x + margin, high.y + margin}};
-    }
-  };
   struct Square {
     Point low;
     double side = 0.0;
@@ -69,37 +57,38 @@ class Surfaces {
   struct Candidates {
     std::vector<std::uint32_t> surfaces, outlines;
   };
-  // A leaf's part of held_: edges, circles, and the outlines that may contain its points. A split
-  // cell ends before it begins and has its sixteen parts from cells_[first] on, row by row.
   struct Cell {
+    enum class Kind : std::uint32_t {
+      kSplit,     // into sixteen parts, cells_[first] and what follows, row by row
+      kListed,    // held_ from `first` on: edges, circles, and the outlines that may contain points
+      kSearched,  // holds too many to list
+    };
+    Kind kind = Kind::kSearched;
     std::uint32_t first = 0, circles = 0, outlines = 0, last = 0;
-    bool is_split() const noexcept { return first > last; }
   };
 
   void add_edges(const std::vector<Point>& corners);
   void build();
   Candidates held_in(const Square& square, const Candidates& candidates) const;
-  Cell store(const Candidates& held);
+  Cell listed(const Candidates& held);
+  Box bound(std::uint32_t surface) const noexcept;
   double distance(std::uint32_t surface, Point p) const noexcept;
+  double searched_distance(Point p) const noexcept;
   const Cell& leaf(Point p) const noexcept;
   bool inside_outline(const Cell& leaf, Point p) const noexcept;
-
-  // Calls f(leaf) for all leaves that overlap the box, which hold every surface that has a point in
-  // it; goes on while f returns true.
-  template <typename F>
-  bool visit(const Box& box, const F& f) const;
-  template <typename F>
-  bool visit(const Cell& cell, const Square& square, const Box& box, const F& f) const;
 
   std::vector<World::Edge> edges_;
   std::vector<Circle> circles_;
   std::vector<Outline> outlines_;
 
+  BoxTree surfaces_near_;  // of all but the walls, numbered from the first that is none
+  BoxTree outlines_near_;
+
   Square root_;
   double finest_per_metre_ = 0.0;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> held_;
-  Cell everything_;  // for points outside the root
+  Cell outside_;  // of the root
 };
 
 }  // namespace devlearn
