@@ -83,7 +83,7 @@ class BoxTree {
   }
 
  private:
-  static constexpr std::size_t kLeaf = 4;    // boxes in a leaf, at most
+  static constexpr std::size_t kLeaf = 8;    // boxes in a leaf, at most
   static constexpr std::size_t kDepth = 40;  // halvings of 2^32 boxes, and some
 
   struct Node {

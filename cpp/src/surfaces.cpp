@@ -17,7 +17,7 @@ constexpr std::uint32_t kWalls = 4;  // edges that are no obstacles, the first
 constexpr double kBorder = 1.1;
 // A cell is split unless it holds few surfaces or is small [m]. Where more than so many things
 // would have to be looked at one by one, they are searched for instead.
-constexpr std::size_t kFew = 4, kMany = 32;
+constexpr std::size_t kFew = 4, kMany = 16;
 constexpr double kLeastSide = 0.02;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();

@@ -74,3 +74,25 @@ inline std::optional<devlearn::Pose> free_pose(devlearn::Random& random,
   }
   return std::nullopt;
 }
+
+/// A square world of heaps of round and square pebbles: whatever touches one touches several, and
+/// many are near.
+inline devlearn::World pebbles(devlearn::Random& random, int heaps, double side) {
+  devlearn::WorldDef def;
+  def.width = def.height = side;
+  def.start = {0.01, 0.01, 0.0};
+  for (int heap = 0; heap < heaps; ++heap) {
+    const devlearn::Point center{between(random, 0.8, side), between(random, 0.8, side)};
+    for (int i = 0; i < 200; ++i) {
+      const devlearn::Point out{between(random, -0.25, 0.25), between(random, -0.25, 0.25)};
+      const devlearn::Point place{center.x + out.x, center.y + out.y};
+      if (heap % 2 == 0) {
+        def.obstacles.push_back(devlearn::Circle{place, 0.02});
+      } else {
+        def.obstacles.push_back(devlearn::Rectangle{place, 0.04, 0.03, between(random, 0.0, 90.0)});
+      }
+    }
+  }
+  def.target = {0.02, 0.02};
+  return devlearn::World(def);
+}

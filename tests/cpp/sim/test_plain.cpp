@@ -26,7 +26,9 @@ TEST_CASE("Clearances and surroundings are those of a look at everything, to the
   Random random(11, "plain clearance");
   long differ = 0, inside = 0, free = 0;
   for (int n = 0; n < 100; ++n) {
-    const World world = random_world(random, 1 + static_cast<int>(random.index(60)), 4.0);
+    const World world = n % 10 == 0
+                            ? pebbles(random, 20, 4.0)
+                            : random_world(random, 1 + static_cast<int>(random.index(60)), 4.0);
     for (int i = 0; i < 500; ++i) {
       const Point p{between(random, -1.5, 5.5), between(random, -1.5, 5.5)};
       const Point q{p.x + between(random, -0.3, 0.3), p.y + between(random, -0.3, 0.3)};
@@ -53,28 +55,52 @@ TEST_CASE("Clearances and surroundings are those of a look at everything, to the
   CHECK(free > 1000);
 }
 
-TEST_CASE("Steps are those of Box2D's own world wherever they are not free, to the bit") {
-  Random random(12, "plain steps");
+namespace {
+
+struct Compared {
   long steps = 0, contacts = 0, different = 0;
-  while (steps < 800'000) {
+};
+
+// Random robots at random in worlds that `world` makes, each for so long.
+template <typename Worlds>
+Compared compare_steps(Random& random, long steps, int each, const Worlds& world) {
+  Compared compared;
+  while (compared.steps < steps) {
     RobotDef def;
     def.radius = between(random, 0.03, 0.15);
     def.speed = between(random, 0.02, random.index(20) == 0 ? 1.0 : 0.2);
-    const Robot robot(random_world(random, 15, 4.0), def);
+    const Robot robot(world(random), def);
     const auto start = free_pose(random, robot.world(), def.radius);
     if (!start) continue;
     Pose pose = *start;
-    for (int i = 0; i < 4000; ++i, ++steps) {
+    for (int i = 0; i < each; ++i, ++compared.steps) {
       const int motion = static_cast<int>(random.index(5));
       const Robot::Step step = robot.step(pose, motion);
-      different += !same(step, plain::step(robot, pose, motion));
-      contacts += step.collided;
+      compared.different += !same(step, plain::step(robot, pose, motion));
+      compared.contacts += step.collided;
       pose = step.pose;
     }
   }
-  MESSAGE(steps << " steps, " << contacts << " with contact");
-  CHECK(different == 0);
-  CHECK(contacts * 20 >= steps);
+  MESSAGE(compared.steps << " steps, " << compared.contacts << " with contact");
+  return compared;
+}
+
+}  // namespace
+
+TEST_CASE("Steps are those of Box2D's own world wherever they are not free, to the bit") {
+  Random random(12, "plain steps");
+  const Compared compared = compare_steps(
+      random, 800'000, 4000, [](Random& chance) { return random_world(chance, 15, 4.0); });
+  CHECK(compared.different == 0);
+  CHECK(compared.contacts * 20 >= compared.steps);
+}
+
+TEST_CASE("Steps among heaps of pebbles, too, where several are touched at once") {
+  Random random(14, "plain pebbles");
+  const Compared compared =
+      compare_steps(random, 20'000, 500, [](Random& chance) { return pebbles(chance, 20, 4.0); });
+  CHECK(compared.different == 0);
+  CHECK(compared.contacts * 20 >= compared.steps);
 }
 
 TEST_CASE("Histories of learning are those of the plain loop, to the bit") {
