@@ -172,6 +172,20 @@ def _interrupts_held() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+@contextmanager
+def _one_thread_each() -> Iterator[None]:
+    # Workers fill the cores as they are. In each, numpy's linear algebra would start a thread for
+    # every core when imported, and these spin for as long as all else in its start takes.
+    if "OMP_NUM_THREADS" in os.environ:
+        yield
+        return
+    os.environ["OMP_NUM_THREADS"] = "1"
+    try:
+        yield
+    finally:
+        os.environ.pop("OMP_NUM_THREADS", None)
+
+
 def _end_with_parent() -> None:
     parent = multiprocessing.parent_process()
     assert parent is not None
@@ -202,7 +216,7 @@ def _completed(
         running: dict[Future[Result], int] = {}
         queue = iter(remaining)
         while True:
-            with _interrupts_held():
+            with _interrupts_held(), _one_thread_each():
                 for i in itertools.islice(queue, 2 * workers - len(running)):
                     running[executor.submit(function, jobs[i])] = i
             if not running:

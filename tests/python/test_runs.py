@@ -87,6 +87,22 @@ def test_equal_jobs_have_equal_results(journal, tmp_path):
     assert [r["square"] for r in run_all(square, jobs, journal, workers=1)] == [0, 1, 0, 1]
 
 
+def threads(job):
+    """How many threads linear algebra may take here."""
+    return {"threads": os.environ.get("OMP_NUM_THREADS")}
+
+
+@pytest.mark.parametrize(("given", "inherited"), [(None, "1"), ("3", "3")])
+def test_workers_share_the_cores_unless_told_otherwise(journal, monkeypatch, given, inherited):
+    if given is None:
+        monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    else:
+        monkeypatch.setenv("OMP_NUM_THREADS", given)
+    results = run_all(threads, [{"n": n} for n in range(4)], journal, workers=2)
+    assert {result["threads"] for result in results} == {inherited}
+    assert os.environ.get("OMP_NUM_THREADS") == given
+
+
 # --- the journal ----------------------------------------------------------------------------------
 
 
