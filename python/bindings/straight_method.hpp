@@ -10,10 +10,10 @@ namespace devlearn::python {
 template <auto function>
 class StraightMethod;
 
-/// A method of one argument that is called at every step, in front of the one that pybind11 made of
-/// the same function: to dispatch a call takes pybind11 longer than the learner takes. Given the
-/// argument by position, the function is called straight away; any other call, and what is refused
-/// for its types, is left to pybind11.
+/// A method that is called at every step, put in front of pybind11's method of that name: to
+/// dispatch a call takes pybind11 longer than the learner takes. Given its one argument by
+/// position, it calls the function straight away; any other call, and one of wrong types, it leaves
+/// to pybind11's.
 template <typename Result, typename Argument, Result (*function)(Idle, Argument)>
 class StraightMethod<function> {
  public:
