@@ -108,14 +108,14 @@ FIGURES = {
 
 # Where the time of a step of the closed loop goes [ns, instructions], contacts by their share.
 STAGES = {
-    "choose and learn": lambda m: m["learner/replay"],
+    "choose and learn": lambda m: m["learner/replay_from_nothing"],
     "move, clearance with it, where nothing is touched": lambda m: (
         (1.0 - m["contact_share"]) * m["contact/free_step"]
     ),
     "move, clearance with it, where something is": lambda m: m["contact_share"] * m[CONTACT],
     "situation, evaluation, record": lambda m: (
         m[LOOP]
-        - m["learner/replay"]
+        - m["learner/replay_from_nothing"]
         - m["contact_share"] * m[CONTACT]
         - (1.0 - m["contact_share"]) * m["contact/free_step"]
     ),
@@ -124,10 +124,10 @@ STAGES = {
 
 # Whose instructions are counted: what the ratios above need, and the stages of a step.
 COUNTED = (
-    FLOOR, Q, LOOP, CONTACT, "learner/replay", "contact/free_step", "contact/plain",
-    "clearance/geometric", "clearance/free_step", "sonar/5", "box2d/5_raycasts_3m",
-    "box2d/5_raycasts_2.1m", "box2d/closed_loop_60hz", "trial/closed_loop_echoes",
-    "trial/experiment",
+    FLOOR, Q, LOOP, CONTACT, "learner/replay", "learner/replay_from_nothing", "contact/free_step",
+    "contact/plain", "clearance/geometric", "clearance/free_step", "sonar/5",
+    "box2d/5_raycasts_3m", "box2d/5_raycasts_2.1m", "box2d/closed_loop_60hz",
+    "trial/closed_loop_echoes", "trial/experiment",
 )  # fmt: skip
 
 
