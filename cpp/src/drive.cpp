@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 #include "box2d_vector.hpp"
@@ -93,11 +92,11 @@ class SolvingOrder {
  public:
   explicit SolvingOrder(const Scene& scene) : left_(scene.edges.size() + scene.circles.size() + 1) {
     places_.resize(left_);
-    std::size_t count = 0;
+    std::size_t* place = places_.data();
     const auto add = [&](const b2Shape& shape) {
       b2AABB box;
       shape.ComputeAABB(&box, {b2Vec2_zero, b2Rot(0.0f)}, 0);
-      return tree_.CreateProxy(box, reinterpret_cast<void*>(count++));
+      return tree_.CreateProxy(box, place++);
     };
     for (const b2EdgeShape& edge : scene.edges) add(edge);
     for (const b2CircleShape& circle : scene.circles) add(circle);
@@ -110,7 +109,7 @@ class SolvingOrder {
 
   // Box2D's.
   bool QueryCallback(int32 proxy) {
-    places_[reinterpret_cast<std::uintptr_t>(tree_.GetUserData(proxy))] = --left_;
+    *static_cast<std::size_t*>(tree_.GetUserData(proxy)) = --left_;
     return true;
   }
 
