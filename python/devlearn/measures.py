@@ -43,7 +43,8 @@ def change_after(counts: npt.NDArray[np.int64], step: int) -> float:
 
 def motions_by_round(record: Record) -> list[bytes]:
     """The motions of each round, as comparable values."""
-    return [record.motion[record.steps_of(i)].tobytes() for i in range(len(record.rounds))]
+    offsets = record.offsets().tolist()
+    return [record.motion[i:j].tobytes() for i, j in zip(offsets, offsets[1:])]
 
 
 def settled_round(record: Record, least: int = SETTLED_ROUNDS) -> int | None:
@@ -73,9 +74,8 @@ def late_increases(record: Record) -> dict[str, list[int]]:
     ``longer``: rounds that took more steps than the one before; ``others``: those that did not.
     """
     steps = record.rounds["steps"]
-    explored = np.array(
-        [(record.kind[record.steps_of(i)] == Kind.EXPLORE).any() for i in range(len(steps))]
-    )
+    explorations = np.concatenate([[0], np.cumsum(record.kind == Kind.EXPLORE)])
+    explored = np.diff(explorations[record.offsets()]) > 0
     half = len(steps) // 2
     longer = np.diff(steps[half - 1 :]) > 0 if half else np.zeros(0, dtype=bool)
     late = explored[half:] if half else np.zeros(0, dtype=bool)

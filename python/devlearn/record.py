@@ -193,9 +193,16 @@ class Record:
         Raises InvalidValue for a record of rounds only.
         """
         i = self._entry(i)
+        start, stop = self.offsets()[i : i + 2].tolist()
+        return slice(start, stop)
+
+    def offsets(self) -> npt.NDArray[np.int64]:
+        """Where the steps of each entry of ``rounds`` begin, and where those of the last end.
+
+        One more than there are entries. Raises InvalidValue for a record of rounds only.
+        """
         self._require_steps()
-        start = int(self.rounds["steps"][:i].sum())
-        return slice(start, start + int(self.rounds["steps"][i]))
+        return np.concatenate([[0], np.cumsum(self.rounds["steps"], dtype=np.int64)])
 
     def path(self, i: int = 0) -> npt.NDArray[np.float64]:
         """Poses of entry ``i`` of ``rounds``, its start first: (steps + 1, 3) [m, m, degrees]."""
@@ -208,12 +215,11 @@ class Record:
 
         Raises InvalidValue for a record of rounds only.
         """
-        self._require_steps()
         first, last, stride = entries.indices(len(self.rounds))
         if stride != 1:
             raise InvalidValue("entries", entries, "a slice of neighbours")
         last = max(first, last)
-        start, stop = (int(self.rounds["steps"][:i].sum()) for i in (first, last))
+        start, stop = self.offsets()[[first, last]].tolist()
         columns = {name: getattr(self, name)[start:stop] for name in STEP_COLUMNS}
         columns |= {n: getattr(self, n)[start + first : stop + last] for n in POSE_COLUMNS}
         columns["rounds"] = self.rounds[first:last]

@@ -67,7 +67,7 @@ def test_a_record_of_rounds_only_tells_the_same_rounds_and_holds_no_steps(paper,
     assert len(brief) == len(brief.x) == 0
     brief.save(tmp_path / "brief.npz")
     assert (Record.load(tmp_path / "brief.npz").rounds == kept.rounds).all()
-    for call in (lambda: brief.steps_of(0), lambda: brief.path(0), lambda: brief.to_csv("-")):
+    for call in (brief.offsets, lambda: brief.path(0), lambda: brief.to_csv("-")):
         refused(call, "record")
     refused(lambda: trial().run(1, echoes=True, rounds_only=True), "rounds_only")
     refused(lambda: Record.concatenate([kept, brief]), "rounds.steps")
@@ -78,6 +78,7 @@ def test_rounds_are_found_by_their_index_from_either_end(record):
     assert [s.start for s in slices] == [0, *(s.stop for s in slices[:-1])]
     assert slices[-1].stop == len(record)
     assert slices == [record.steps_of(i) for i in (-3, -2, -1)]
+    assert record.offsets().tolist() == [0, *(s.stop for s in slices)]
     for i in range(3):
         path = record.path(i)
         assert path.shape == (record.rounds["steps"][i] + 1, 3)
