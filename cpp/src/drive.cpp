@@ -21,6 +21,7 @@ constexpr int kPositionRounds = 3;
 // So near where it began the body keeps the box in which Box2D first put it, grown by
 // b2_aabbExtension to all sides [m].
 constexpr float kFirstBox = 0.09f;
+static_assert(kFirstBox < b2_aabbExtension);
 
 // The part of an edge near a point, so that floats lose nothing to faraway corners.
 World::Edge near_part(const World::Edge& edge, Point point, double reach) {
