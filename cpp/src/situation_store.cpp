@@ -51,7 +51,7 @@ void SituationStore::reserve(std::size_t situations) {
   }
   if (situations * block_bytes_ > blocks_.size()) {
     decltype(blocks_) roomier(situations * block_bytes_);
-    std::memcpy(roomier.data(), blocks_.data(), size_ * block_bytes_);
+    std::copy_n(blocks_.data(), size_ * block_bytes_, roomier.data());
     blocks_.swap(roomier);
   }
   if (situations > situations_for(buckets_.size())) {
