@@ -258,9 +258,10 @@ TrialSnapshot load_trial(const std::byte* bytes, std::size_t size, std::shared_p
                          const std::string& source) {
   const Contents contents = safetensors::read(bytes, size, source);
   require_format(contents, kFormat, kFormatVersion, source);
-  const auto note = contents.metadata.find("note");
-  return {trial_of(contents, std::move(agent), source), record_of(contents, source),
-          note == contents.metadata.end() ? "" : note->second};
+  const auto entry = contents.metadata.find("note");
+  const std::string note = entry == contents.metadata.end() ? "" : entry->second;
+  if (!is_utf8(note)) throw FileError(source, "note", excerpt(note), "UTF-8");
+  return {trial_of(contents, std::move(agent), source), record_of(contents, source), note};
 }
 
 }  // namespace devlearn
