@@ -27,6 +27,25 @@ bool crosses_ray(Point p, Point a, Point b) {
   return (a.y > p.y) != (b.y > p.y) && (cross(b - a, p - a) > 0.0) == (b.y > a.y);
 }
 
+Box bound_of(const World::Edge& edge) { return Box{edge.a, edge.a}.joined({edge.b, edge.b}); }
+Box bound_of(const Circle& circle) {
+  return Box{circle.center, circle.center}.grown_by(circle.radius);
+}
+
+double distance_to(const World::Edge& edge, Point p) {
+  return std::sqrt(squared_distance(p, edge.a, edge.b));
+}
+double distance_to(const Circle& circle, Point p) {
+  return outside(circle, squared_length(p - circle.center));
+}
+
+bool reaches(const World::Edge& edge, Point p, double reach) {
+  return squared_distance(p, edge.a, edge.b) <= reach * reach;
+}
+bool reaches(const Circle& circle, Point p, double reach) {
+  return distance(p, circle.center) - circle.radius <= reach;
+}
+
 }  // namespace
 
 Surfaces::Surfaces(double width, double height, std::vector<std::vector<Point>> outlines,
@@ -37,15 +56,14 @@ Surfaces::Surfaces(double width, double height, std::vector<std::vector<Point>> 
   for (std::vector<Point>& corners : outlines) {
     add_edges(corners);
     Box bound{corners[0], corners[0]};
-    for (const Point& corner : corners) {
-      bound.low = {std::min(bound.low.x, corner.x), std::min(bound.low.y, corner.y)};
-      bound.high = {std::max(bound.high.x, corner.x), std::max(bound.high.y, corner.y)};
-    }
+    for (const Point& corner : corners) bound = bound.joined({corner, corner});
     outlines_.push_back({std::move(corners), bound});
   }
   std::vector<Box> bounds;
   for (std::size_t i = kWalls; i < edges_.size() + circles_.size(); ++i) {
-    bounds.push_back(bound(static_cast<std::uint32_t>(i)));
+    const auto surface = static_cast<std::uint32_t>(i);
+    bounds.push_back(
+        apply(surface, [](const auto& shape) { return bound_of(shape).grown_by(kMargin); }));
   }
   surfaces_near_ = BoxTree(bounds);
   bounds.clear();
@@ -105,22 +123,8 @@ void Surfaces::build() {
   }
 }
 
-Box Surfaces::bound(std::uint32_t surface) const noexcept {
-  if (surface < edges_.size()) {
-    const World::Edge& edge = edges_[surface];
-    return Box{edge.a, edge.a}.joined({edge.b, edge.b}).grown_by(kMargin);
-  }
-  const Circle& circle = circles_[surface - edges_.size()];
-  return Box{circle.center, circle.center}.grown_by(circle.radius + kMargin);
-}
-
 double Surfaces::distance(std::uint32_t surface, Point p) const noexcept {
-  if (surface < edges_.size()) {
-    const World::Edge& edge = edges_[surface];
-    return std::sqrt(squared_distance(p, edge.a, edge.b));
-  }
-  const Circle& circle = circles_[surface - edges_.size()];
-  return outside(circle, squared_length(p - circle.center));
+  return apply(surface, [p](const auto& shape) { return distance_to(shape, p); });
 }
 
 Surfaces::Candidates Surfaces::held_in(const Square& square, const Candidates& candidates) const {
@@ -232,10 +236,8 @@ bool Surfaces::keep_clear_of(Point p, Point q, double room) const noexcept {
   bool clear = true;
   double limit = room * room;
   surfaces_near_.search(Box{p, p}.joined({q, q}).grown_by(kMargin), limit, [&](std::uint32_t i) {
-    const std::uint32_t surface = kWalls + i;
-    const double distance = surface < edges_.size()
-                                ? swept_distance(edges_[surface], p, q)
-                                : swept_distance(circles_[surface - edges_.size()], p, q);
+    const double distance =
+        apply(kWalls + i, [&](const auto& shape) { return swept_distance(shape, p, q); });
     if (distance > room) return;
     clear = false;
     limit = -1.0;
@@ -247,12 +249,7 @@ World::Surroundings Surfaces::around(Point p, double reach) const {
   std::vector<std::uint32_t> found;
   found.reserve(32);
   const auto reached = [&](std::uint32_t surface) {
-    if (surface < edges_.size()) {
-      const World::Edge& edge = edges_[surface];
-      return squared_distance(p, edge.a, edge.b) <= reach * reach;
-    }
-    const Circle& circle = circles_[surface - edges_.size()];
-    return devlearn::distance(p, circle.center) - circle.radius <= reach;
+    return apply(surface, [&](const auto& shape) { return reaches(shape, p, reach); });
   };
   for (std::uint32_t i = 0; i < kWalls; ++i) {
     if (reached(i)) found.push_back(i);

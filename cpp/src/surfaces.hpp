@@ -71,7 +71,11 @@ class Surfaces {
   void build();
   Candidates held_in(const Square& square, const Candidates& candidates) const;
   Cell listed(const Candidates& held);
-  Box bound(std::uint32_t surface) const noexcept;
+  // f of the edge or circle that has this number.
+  template <typename F>
+  auto apply(std::uint32_t surface, const F& f) const {
+    return surface < edges_.size() ? f(edges_[surface]) : f(circles_[surface - edges_.size()]);
+  }
   double distance(std::uint32_t surface, Point p) const noexcept;
   double searched_distance(Point p) const noexcept;
   const Cell& leaf(Point p) const noexcept;
