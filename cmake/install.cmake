@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(devlearn_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/devlearn)
 
-# HEADERS follow the name.
+# A library, and its headers, which lie in include/.
 function(devlearn_install name)
   install(TARGETS devlearn_${name} EXPORT devlearn-${name}
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name}
@@ -13,19 +13,20 @@ function(devlearn_install name)
           INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT devlearn-${name} NAMESPACE devlearn:: FILE devlearn-${name}.cmake
           DESTINATION ${devlearn_package_dir} COMPONENT ${name})
-  list(TRANSFORM ARGN PREPEND cpp/include/devlearn/ OUTPUT_VARIABLE headers)
-  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/devlearn COMPONENT ${name})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})
 
   # A static library leaves it to the program to link what it stands on; a shared one does not.
   set(requires "")
-  if(name STREQUAL "sim")
+  if(name STREQUAL "agents")
     set(requires "devlearn-core = ${PROJECT_VERSION}")
+  elseif(name STREQUAL "sim")
+    set(requires "devlearn-agents = ${PROJECT_VERSION}")
     if(DEVLEARN_SIM_NEEDS_BOX2D)
       string(APPEND requires ", box2d >= 2.4.1")
     endif()
   endif()
   file(RELATIVE_PATH to_include ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_INCLUDEDIR})
-  configure_file(cmake/devlearn.pc.in devlearn-${name}.pc @ONLY)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/devlearn.pc.in devlearn-${name}.pc @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/devlearn-${name}.pc
           DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT ${name})
 endfunction()

@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "bindings.hpp"
-#include "record_columns.hpp"
+#include "loop/record_columns.hpp"
 #include "record_object.hpp"
 
 namespace devlearn::python {

@@ -46,5 +46,5 @@ def test_the_cpp_example_compiles_against_core_alone(tmp_path):
         f"{include}\n#include <cstdint>\ndouble evaluate();\nstd::int64_t sense();\n"
         f"void execute(int);\nint main() {{\n{body}}}\n"
     )
-    command = [compiler, "-std=c++17", "-fsyntax-only", "-I", ROOT / "cpp/include", program]
+    command = [compiler, "-std=c++17", "-fsyntax-only", "-I", ROOT / "cpp/core/include", program]
     subprocess.run(command, check=True)

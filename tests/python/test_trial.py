@@ -92,7 +92,7 @@ def cpp_tests():
         os.environ.get("DEVLEARN_TEST_SIM", SOURCE / "build" / "release" / "tests/cpp/test_sim")
     )
     sources = [*(SOURCE / "cpp").rglob("*.?pp")] + [
-        SOURCE / "tests" / "cpp" / "sim" / "test_trial.cpp"
+        SOURCE / "tests" / "cpp" / "sim" / "loop" / "test_trial.cpp"
     ]
     if not path.exists():
         pytest.skip(f"{path} is not built")

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bench.hpp"
-#include "box2d_world.hpp"
-#include "grown_worlds.hpp"
+#include "sim/box2d_world.hpp"
+#include "sim/grown_worlds.hpp"
 
 namespace devlearn::bench {
 namespace {

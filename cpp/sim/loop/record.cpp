@@ -5,7 +5,7 @@
 #include <string>
 
 #include "devlearn/error.hpp"
-#include "record_columns.hpp"
+#include "loop/record_columns.hpp"
 
 namespace devlearn {
 namespace {

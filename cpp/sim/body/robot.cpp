@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "box2d_vector.hpp"
+#include "body/box2d_vector.hpp"
+#include "body/drive.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
-#include "drive.hpp"
-#include "geometry.hpp"
+#include "world/geometry.hpp"
 
 namespace devlearn {
 namespace {

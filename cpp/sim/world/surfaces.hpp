@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "box_tree.hpp"
 #include "devlearn/world.hpp"
+#include "world/box_tree.hpp"
 
 namespace devlearn {
 

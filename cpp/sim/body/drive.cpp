@@ -1,4 +1,4 @@
-#include "drive.hpp"
+#include "body/drive.hpp"
 
 #include <box2d/box2d.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "box2d_vector.hpp"
+#include "body/box2d_vector.hpp"
 #include "devlearn/math.hpp"
-#include "geometry.hpp"
+#include "world/geometry.hpp"
 
 namespace devlearn {
 namespace {

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "body/drive.hpp"
 #include "devlearn/learner.hpp"
 #include "devlearn/math.hpp"
 #include "devlearn/trial.hpp"
-#include "drive.hpp"
-#include "geometry.hpp"
+#include "world/geometry.hpp"
 
 // The rules of world, robot and trial without any rejection test or shortcut: everything is looked
 // at every time, and whatever is not free goes through a Box2D world.

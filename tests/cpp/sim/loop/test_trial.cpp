@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "../core/refusal.hpp"
+#include "core/refusal.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/trial.hpp"
-#include "open_world.hpp"
+#include "sim/open_world.hpp"
 
 using namespace devlearn;
 

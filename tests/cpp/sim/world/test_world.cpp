@@ -17,7 +17,7 @@
 #include "devlearn/random.hpp"
 #include "devlearn/robot.hpp"
 #include "devlearn/world.hpp"
-#include "random_worlds.hpp"
+#include "sim/world/random_worlds.hpp"
 
 using namespace devlearn;
 namespace fs = std::filesystem;

@@ -8,7 +8,7 @@
 #include <unordered_set>
 
 #include "devlearn/error.hpp"
-#include "geometry.hpp"
+#include "world/geometry.hpp"
 
 namespace devlearn {
 namespace {

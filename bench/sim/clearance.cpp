@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "bench.hpp"
-#include "grown_worlds.hpp"
+#include "sim/grown_worlds.hpp"
 
 namespace devlearn::bench {
 namespace {

@@ -7,12 +7,12 @@
 #include <sstream>
 #include <string>
 
-#include "../core/kept_snapshots.hpp"
-#include "../core/refusal.hpp"
-#include "../core/snapshot_bytes.hpp"
+#include "core/kept_snapshots.hpp"
+#include "core/refusal.hpp"
+#include "core/snapshot_bytes.hpp"
 #include "devlearn/snapshot.hpp"
 #include "devlearn/trial_snapshot.hpp"
-#include "open_world.hpp"
+#include "sim/open_world.hpp"
 
 using namespace devlearn;
 

@@ -6,10 +6,10 @@
 
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
-#include "geometry.hpp"
-#include "simple_polygon.hpp"
-#include "surfaces.hpp"
-#include "world_text.hpp"
+#include "world/geometry.hpp"
+#include "world/simple_polygon.hpp"
+#include "world/surfaces.hpp"
+#include "world/world_text.hpp"
 
 namespace devlearn {
 namespace {

@@ -7,8 +7,8 @@
 #include "devlearn/random.hpp"
 #include "devlearn/robot.hpp"
 #include "devlearn/trial.hpp"
-#include "plain.hpp"
-#include "random_worlds.hpp"
+#include "sim/body/plain.hpp"
+#include "sim/world/random_worlds.hpp"
 
 // Every fast path gives what the plain rules of plain.hpp give, to the last bit.
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench.hpp"
-#include "box2d_world.hpp"
+#include "sim/box2d_world.hpp"
 
 namespace devlearn::bench {
 namespace {

@@ -14,7 +14,7 @@
 #include "devlearn/world.hpp"
 #include "excerpt.hpp"
 #include "file.hpp"
-#include "world_text.hpp"
+#include "world/world_text.hpp"
 
 namespace devlearn {
 namespace {

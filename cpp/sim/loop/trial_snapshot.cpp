@@ -9,8 +9,8 @@
 #include "excerpt.hpp"
 #include "file.hpp"
 #include "learner_snapshot.hpp"
-#include "record_columns.hpp"
-#include "world_text.hpp"
+#include "loop/record_columns.hpp"
+#include "world/world_text.hpp"
 
 namespace devlearn {
 namespace {

@@ -10,7 +10,7 @@
 #include "devlearn/math.hpp"
 #include "devlearn/random.hpp"
 #include "devlearn/robot.hpp"
-#include "random_worlds.hpp"
+#include "sim/world/random_worlds.hpp"
 
 using namespace devlearn;
 

@@ -1,4 +1,4 @@
-#include "surfaces.hpp"
+#include "world/surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "geometry.hpp"
+#include "world/geometry.hpp"
 
 namespace devlearn {
 namespace {
