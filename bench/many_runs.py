@@ -13,8 +13,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from devlearn import World, experiments
-from devlearn.runs import Journal, run_all
+from devlearn import World
+from devlearn.experiments.runs import Journal, run_all
+from devlearn.paper import schedule
 
 
 def began(job: Mapping[str, Any]) -> dict[str, Any]:
@@ -40,13 +41,13 @@ def main() -> None:
     _, starts = timed(began, [{"n": n} for n in range(2)], 2)
     start_up = max(result["at"] for result in starts) - start
 
-    world, config = World.load("paper"), experiments.preset("paper")
-    jobs = [experiments.job(world, config, seed) for seed in range(1, 5)]
-    one = timed(experiments.execute, jobs, 1)[0] / len(jobs)
+    world, config = World.load("paper"), schedule.preset("paper")
+    jobs = [schedule.job(world, config, seed) for seed in range(1, 5)]
+    one = timed(schedule.execute, jobs, 1)[0] / len(jobs)
     count = max(4, 2 * int(1.1 * seconds / one))
-    jobs = [experiments.job(world, config, seed) for seed in range(1, count + 1)]
+    jobs = [schedule.job(world, config, seed) for seed in range(1, count + 1)]
     rates = {
-        f"runs/per_second_{workers}": count / timed(experiments.execute, jobs, workers)[0]
+        f"runs/per_second_{workers}": count / timed(schedule.execute, jobs, workers)[0]
         for workers in (2, 1)
     }
     print(json.dumps({"runs/start_up": start_up, **rates}))

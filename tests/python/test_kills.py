@@ -149,7 +149,7 @@ def start(folder):
     (shim / "__init__.py").write_text("raise ModuleNotFoundError(\"No module named 'matplotlib'\")")
     path = os.pathsep.join([str(shim.parent), os.environ.get("PYTHONPATH", "")])
     return subprocess.Popen(
-        [sys.executable, "-m", "devlearn.cli", *RUN, "--output", folder],
+        [sys.executable, "-m", "devlearn", *RUN, "--output", folder],
         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
         env=os.environ | {"PYTHONPATH": path},
     )  # fmt: skip

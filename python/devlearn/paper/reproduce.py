@@ -14,13 +14,14 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 
-from . import _core, experiments, figures
+from .. import _core
+from ..errors import InvalidValue
+from ..experiments.runs import Journal, made_folder, run_all
+from ..record import provenance_of, written_aside
+from . import figures, schedule
 from .claims import Figure, Results, Verdict, judge
-from .errors import InvalidValue
-from .experiments import Measures
-from .record import provenance_of, written_aside
 from .report import write_report
-from .runs import Journal, made_folder, run_all
+from .schedule import Measures
 
 Say = Callable[[str], None]
 
@@ -119,16 +120,16 @@ def save_figure(folder: Path, drawn: figures.Drawn) -> list[Path]:
 def _run(
     world: _core.World, seeds: Sequence[int], journal: Journal, workers: int | None, say: Say
 ) -> dict[str, Results]:
-    similar = [experiments.similar_world(seed) for seed in seeds]
+    similar = [schedule.similar_world(seed) for seed in seeds]
 
     def measured(jobs: list[dict[str, Any]], what: str) -> list[Measures]:
         say(f"{what}: {len(jobs)} runs")
-        return run_all(experiments.execute, jobs, journal, workers=workers, what=what)
+        return run_all(schedule.execute, jobs, journal, workers=workers, what=what)
 
     results = {}
-    for name in experiments.PRESETS:
-        config = experiments.preset(name)
-        starts = experiments.new_starts(world, config)
+    for name in schedule.PRESETS:
+        config = schedule.preset(name)
+        starts = schedule.new_starts(world, config)
         shortest = len(_core.shortest_path(_core.Robot(world, config.robot))) - 1
 
         def jobs(
@@ -137,37 +138,35 @@ def _run(
             shortest: int = shortest,
             **more: Any,
         ) -> list[dict[str, Any]]:
-            return [experiments.job(world, config, s, shortest=shortest, **more) for s in seeds]
+            return [schedule.job(world, config, s, shortest=shortest, **more) for s in seeds]
 
         runs = measured(jobs(config, seeds, starts=starts), f"{name}: main runs")
         by_sigma = {}
-        for sigma in experiments.SIGMAS[name]:
+        for sigma in schedule.SIGMAS[name]:
             if sigma == config.learner.sigma:
                 by_sigma[sigma] = runs
                 continue
             other = config.replace(learner=config.learner.replace(sigma=sigma))
             by_sigma[sigma] = measured(jobs(other, seeds), f"{name}: sigma {sigma:g}")
         reseeded = measured(
-            jobs(config, [seed + experiments.RESEEDED for seed in seeds]), f"{name}: other seeds"
+            jobs(config, [seed + schedule.RESEEDED for seed in seeds]), f"{name}: other seeds"
         )
         in_similar = measured(
             [
-                experiments.job(w, config, seed, rounds=experiments.SIMILAR_ROUNDS)
+                schedule.job(w, config, seed, rounds=schedule.SIMILAR_ROUNDS)
                 for w, seed in zip(similar, seeds)
             ],
             f"{name}: similar worlds",
         )
         # Random motions learn nothing, so they are the same control for both presets.
-        plain = experiments.preset("paper")
+        plain = schedule.preset("paper")
         random = measured(
-            jobs(plain, seeds, agent="random", rounds=experiments.CONTROL_ROUNDS),
+            jobs(plain, seeds, agent="random", rounds=schedule.CONTROL_ROUNDS),
             "control: random motions",
         )
         random_in_similar = measured(
             [
-                experiments.job(
-                    w, plain, s, agent="random", rounds=experiments.SIMILAR_CONTROL_ROUNDS
-                )
+                schedule.job(w, plain, s, agent="random", rounds=schedule.SIMILAR_CONTROL_ROUNDS)
                 for w, s in zip(similar, seeds)
             ],
             "control: random motions in similar worlds",
@@ -217,7 +216,7 @@ def summarise(results: dict[str, Results], shortest: int) -> list[list[str]]:
             "steps of the last round": _spread([run["round_steps"][-1] for run in runs]),
             "runs with a round that never arrived": str(sum(count > 0 for count in failed)),
             "runs ended early as hopeless": str(
-                sum(len(run["round_steps"]) < experiments.PATH_ROUNDS for run in runs)
+                sum(len(run["round_steps"]) < schedule.PATH_ROUNDS for run in runs)
             ),
             "mappings explored": _spread([run["mappings_explored"] for run in runs]),
             "mappings effective at the end": _spread([run["mappings_effective"] for run in runs]),

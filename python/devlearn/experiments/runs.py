@@ -18,8 +18,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from . import _core
-from .errors import FileError
+from .. import _core
+from ..errors import FileError
 
 Job = Mapping[str, Any]
 Result = dict[str, Any]
@@ -131,7 +131,8 @@ def made_folder(path: str | os.PathLike[str]) -> Path:
 def code_fingerprint() -> str:
     """A hash of all code that a result depends on."""
     digest = hashlib.sha256()
-    files = [Path(_core.__file__), *sorted(Path(__file__).parent.glob("*.py"))]
+    package = Path(__file__).parents[1]
+    files = [Path(_core.__file__), *sorted(package.rglob("*.py"))]
     for file in files:
         digest.update(file.read_bytes())
     return digest.hexdigest()

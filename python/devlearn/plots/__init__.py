@@ -40,7 +40,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, ScalarFormatter
 from matplotlib.transforms import ScaledTranslation
 
-from ._core import (
+from .._core import (
     Circle,
     Event,
     Kind,
@@ -53,8 +53,8 @@ from ._core import (
     TrialConfig,
     World,
 )
-from .errors import InvalidValue
-from .record import Record
+from ..errors import InvalidValue
+from ..record import Record
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,10 +11,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from . import _core
-from .errors import FileError
-from .record import Record, provenance_of
-from .runs import code_fingerprint
+from .. import _core
+from ..errors import FileError
+from ..experiments.runs import code_fingerprint
+from ..record import Record, provenance_of
 
 STATE = "state.safetensors"  # a trial's snapshot, with the record so far
 AT_ONCE = 1000  # steps between two looks at the clock and for Ctrl-C

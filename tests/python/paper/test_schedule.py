@@ -8,8 +8,9 @@ import devlearn
 import numpy as np
 import pytest
 from conftest import differences, refused
-from devlearn import Kind, Robot, Trial, TrialConfig, World, experiments, shortest_path
-from devlearn.claims import claims
+from devlearn import Kind, Robot, Trial, TrialConfig, World, shortest_path
+from devlearn.paper import schedule
+from devlearn.paper.claims import claims
 
 HOPELESS = {"free_steps": 10, "step_limit": 2}  # nothing is reached in two steps from afar
 
@@ -18,20 +19,20 @@ HOPELESS = {"free_steps": 10, "step_limit": 2}  # nothing is reached in two step
 def jobs(paper):
     """A job of the learner with two new starts, and one of random motions."""
     config = TrialConfig.paper()
-    starts = experiments.new_starts(paper, config, 2)
-    learner = experiments.job(paper, config, 4, rounds=30, shortest=113, starts=starts)
-    return learner, experiments.job(paper, config, 4, agent="random", rounds=1, shortest=113)
+    starts = schedule.new_starts(paper, config, 2)
+    learner = schedule.job(paper, config, 4, rounds=30, shortest=113, starts=starts)
+    return learner, schedule.job(paper, config, 4, agent="random", rounds=1, shortest=113)
 
 
 @pytest.fixture(scope="module")
 def measured(jobs):
-    return [experiments.execute(job) for job in jobs]
+    return [schedule.execute(job) for job in jobs]
 
 
 @pytest.fixture(scope="module")
 def made(paper):
     """The learner's run of ``jobs``, made anew."""
-    return experiments.run(paper, TrialConfig.paper(), 4, rounds=30)
+    return schedule.run(paper, TrialConfig.paper(), 4, rounds=30)
 
 
 # --- worlds and starts ----------------------------------------------------------------------------
@@ -51,14 +52,14 @@ def outline(obstacle):
 
 
 def test_a_similar_world_is_the_same_at_every_call_and_another_for_another_number():
-    texts = [experiments.similar_world(i).to_json() for i in (1, 2, 3, 1)]
+    texts = [schedule.similar_world(i).to_json() for i in (1, 2, 3, 1)]
     assert texts[0] == texts[3]
     assert len(set(texts)) == 3
 
 
 @pytest.mark.parametrize("index", range(1, 7))
 def test_in_a_similar_world_start_and_target_are_free_and_there_is_a_way(index, paper):
-    world = experiments.similar_world(index)
+    world = schedule.similar_world(index)
     assert (world.start, world.target) == (paper.start, paper.target)
     assert world.clearance(*world.start[:2], walls_count=True) > 0.2
     assert world.clearance(*world.target, walls_count=True) > 0.2
@@ -67,7 +68,7 @@ def test_in_a_similar_world_start_and_target_are_free_and_there_is_a_way(index, 
 
 @pytest.mark.parametrize("index", range(1, 21))
 def test_obstacles_of_a_similar_world_have_the_papers_sizes_and_a_way_between_them(index, paper):
-    world = experiments.similar_world(index)
+    world = schedule.similar_world(index)
     for moved, original in zip(world.obstacles, paper.obstacles):
         assert type(moved) is type(original)
         size, other = (np.ptp(_distances(o)) for o in (moved, original))
@@ -90,7 +91,7 @@ def _inside(points):
 
 def test_new_starts_are_free_far_and_timed_by_the_shortest_path(paper):
     config = TrialConfig.paper()
-    starts = experiments.new_starts(paper, config)
+    starts = schedule.new_starts(paper, config)
     assert len(starts) == 8
     for pose, steps in starts:
         assert paper.clearance(pose.x, pose.y, walls_count=True) >= 0.15
@@ -104,14 +105,14 @@ def test_new_starts_are_free_far_and_timed_by_the_shortest_path(paper):
 
 def test_new_starts_are_the_same_at_every_call_and_fewer_are_the_first(paper):
     config = TrialConfig.paper()
-    starts = experiments.new_starts(paper, config)
-    assert experiments.new_starts(paper, config) == starts
-    assert experiments.new_starts(paper, config, 3) == starts[:3]
+    starts = schedule.new_starts(paper, config)
+    assert schedule.new_starts(paper, config) == starts
+    assert schedule.new_starts(paper, config, 3) == starts[:3]
 
 
 def test_a_world_without_room_for_new_starts_is_refused():
     small = World(2, 2, (0.5, 0.5, 0), (1.5, 1.5))
-    refused(lambda: experiments.new_starts(small, TrialConfig()), "world", "0 new starts")
+    refused(lambda: schedule.new_starts(small, TrialConfig()), "world", "0 new starts")
 
 
 # --- runs -----------------------------------------------------------------------------------------
@@ -119,7 +120,7 @@ def test_a_world_without_room_for_new_starts_is_refused():
 
 def test_a_run_is_two_rounds_of_free_learning_and_then_rounds_of_path_learning(paper):
     config = TrialConfig.step5()
-    made = experiments.run(paper, config, 9, rounds=25, free_steps=300, step_limit=900)
+    made = schedule.run(paper, config, 9, rounds=25, free_steps=300, step_limit=900)
     trial = Trial(paper, config, 9)
     assert differences(made.first, trial.free_learning(300)) == []
     assert differences(made.second, trial.free_learning(300)) == []
@@ -130,7 +131,7 @@ def test_a_run_is_two_rounds_of_free_learning_and_then_rounds_of_path_learning(p
 
 @pytest.mark.parametrize(("rounds", "kept"), [(7, 7), (20, 20), (21, 20), (100, 20)])
 def test_a_run_that_is_hopeless_ends_after_twenty_failed_rounds(paper, rounds, kept):
-    made = experiments.run(paper, TrialConfig(), 1, rounds=rounds, **HOPELESS)
+    made = schedule.run(paper, TrialConfig(), 1, rounds=rounds, **HOPELESS)
     assert len(made.paths.rounds) == kept
     assert not made.paths.rounds["arrived"].any()
     assert (made.paths.rounds["steps"] == 2).all()
@@ -138,22 +139,22 @@ def test_a_run_that_is_hopeless_ends_after_twenty_failed_rounds(paper, rounds, k
 
 def test_a_run_in_which_a_round_arrives_goes_on():
     near = World(5, 5, (2.5, 2.5, 0), (2.5 + 0.4, 2.5))
-    made = experiments.run(near, TrialConfig(), 1, rounds=45, free_steps=10, step_limit=60)
+    made = schedule.run(near, TrialConfig(), 1, rounds=45, free_steps=10, step_limit=60)
     assert made.paths.rounds["arrived"].any()
     assert len(made.paths.rounds) == 45
 
 
 def test_an_unknown_preset_is_refused():
-    assert experiments.preset("paper") == TrialConfig.paper()
-    assert experiments.preset("step5") == TrialConfig.step5()
-    refused(lambda: experiments.preset("step6"), "preset", "'step6'")
+    assert schedule.preset("paper") == TrialConfig.paper()
+    assert schedule.preset("step5") == TrialConfig.step5()
+    refused(lambda: schedule.preset("step6"), "preset", "'step6'")
 
 
 def test_settled_runs_are_those_that_settled_each_on_a_path_of_its_own(monkeypatch):
     habits = {1: None, 2: "a", 3: "a", 4: None, 5: "b", 6: "a", 7: "c"}
-    monkeypatch.setattr(experiments, "run", lambda world, config, seed: SimpleNamespace(paths=seed))
-    monkeypatch.setattr(experiments.measures, "habit", lambda paths: habits[paths])
-    found = experiments.settled_runs(None, None)
+    monkeypatch.setattr(schedule, "run", lambda world, config, seed: SimpleNamespace(paths=seed))
+    monkeypatch.setattr(schedule.measures, "habit", lambda paths: habits[paths])
+    found = schedule.settled_runs(None, None)
     assert [next(found).paths for _ in range(3)] == [2, 5, 7]
 
 
@@ -164,7 +165,7 @@ def test_a_job_is_plain_values_and_gives_the_same_measures_from_json(jobs, measu
     for job, measures in zip(jobs, measured):
         again = json.loads(json.dumps(job))
         assert again == job
-        assert json.dumps(experiments.execute(again)) == json.dumps(measures)
+        assert json.dumps(schedule.execute(again)) == json.dumps(measures)
 
 
 def test_every_claim_is_measured_on_runs_and_on_its_control(measured):
@@ -222,7 +223,7 @@ def test_measures_of_learning_are_those_of_the_runs_records(measured, made):
 
 def test_random_motions_are_measured_as_a_table_that_learns_nothing(measured, paper):
     m = measured[1]
-    made = experiments.run(paper, TrialConfig.paper(), 4, agent=devlearn.RandomAgent(4), rounds=1)
+    made = schedule.run(paper, TrialConfig.paper(), 4, agent=devlearn.RandomAgent(4), rounds=1)
     records = [made.first, made.second, made.paths]
     seen, again, failed = {}, 0, 0
     for record in records:
@@ -245,9 +246,9 @@ def test_random_motions_are_measured_as_a_table_that_learns_nothing(measured, pa
 
 def test_rounds_from_a_new_start_end_with_one_that_is_useful(paper, made):
     config = TrialConfig.paper()
-    (start, shortest) = experiments.new_starts(paper, config, 1)[0]
+    (start, shortest) = schedule.new_starts(paper, config, 1)[0]
     before = made.trial.learner.explored_count
-    record = experiments.useful_round(paper, config, made.trial.learner, start, shortest)
+    record = schedule.useful_round(paper, config, made.trial.learner, start, shortest)
     assert record.rounds["arrived"][-1]
     useful = (record.rounds["steps"] <= 1.5 * shortest) & record.rounds["arrived"]
     assert useful.tolist() == [False] * (len(useful) - 1) + [True]
@@ -257,14 +258,14 @@ def test_rounds_from_a_new_start_end_with_one_that_is_useful(paper, made):
 
 def test_useful_is_at_most_one_and_a_half_times_the_shortest_path(paper, made):
     config, learner = TrialConfig.paper(), made.trial.learner
-    start = experiments.new_starts(paper, config, 1)[0][0]
-    first = experiments.useful_round(paper, config, learner, start, 10**6).rounds
+    start = schedule.new_starts(paper, config, 1)[0][0]
+    first = schedule.useful_round(paper, config, learner, start, 10**6).rounds
     assert first["arrived"].tolist() == [False] * (len(first) - 1) + [True]
     steps = int(first["steps"][-1])
     enough = -(-steps * 2 // 3)  # the least whole number that makes so many steps useful
-    useful = experiments.useful_round(paper, config, learner, start, enough)
+    useful = schedule.useful_round(paper, config, learner, start, enough)
     assert useful.rounds.tolist() == first.tolist()
-    later = experiments.useful_round(paper, config, learner, start, enough - 1)
+    later = schedule.useful_round(paper, config, learner, start, enough - 1)
     assert later is None or len(later.rounds) > len(first)
 
 
@@ -273,7 +274,7 @@ def test_new_starts_are_measured_in_rounds_with_what_was_learned_and_without(
 ):
     needed = []
     for start, shortest in jobs[0]["starts"]:
-        record = experiments.useful_round(
+        record = schedule.useful_round(
             paper, TrialConfig.paper(), made.trial.learner, start, shortest
         )
         needed.append(41 if record is None else len(record.rounds))
@@ -293,9 +294,9 @@ def test_a_robot_trapped_at_a_new_start_is_given_up(
             rounds.append(arguments)
             return super().path_learning(*arguments)
 
-    monkeypatch.setattr(experiments, "Trial", Watched)
-    monkeypatch.setattr(experiments, "STEP_LIMIT", 1)
-    monkeypatch.setattr(experiments, "TRAPPED_ROUNDS", in_a_row)
+    monkeypatch.setattr(schedule, "Trial", Watched)
+    monkeypatch.setattr(schedule, "STEP_LIMIT", 1)
+    monkeypatch.setattr(schedule, "TRAPPED_ROUNDS", in_a_row)
     config, learner = TrialConfig.paper(), made.trial.learner
-    assert experiments.useful_round(paper, config, learner, (2.5, 3.0, 0.0), 50) is None
+    assert schedule.useful_round(paper, config, learner, (2.5, 3.0, 0.0), 50) is None
     assert rounds == [(1, 1)] * made_in_all

@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import measures
-from ._core import (
+from .._core import (
     Circle,
     Kind,
     Learner,
@@ -29,9 +28,10 @@ from ._core import (
     World,
     shortest_path,
 )
-from ._types import Pose
-from .errors import InvalidValue
-from .record import Record
+from .._types import Pose
+from ..errors import InvalidValue
+from ..record import Record
+from . import measures
 
 FREE_STEPS = 10_000
 STEP_LIMIT = 10_000

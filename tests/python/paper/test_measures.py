@@ -3,7 +3,8 @@
 import devlearn
 import numpy as np
 import pytest
-from devlearn import Event, Kind, measures
+from devlearn import Event, Kind
+from devlearn.paper import measures
 from devlearn.record import STEP_COLUMNS, provenance_of
 from hypothesis import given
 from hypothesis import strategies as st

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ._core import Event, Kind
-from .record import Record
+from .._core import Event, Kind
+from ..record import Record
 
 NEAR_TARGET = 0.6  # [m]
 SETTLED_ROUNDS = 40

@@ -10,10 +10,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import experiments
+from ..record import written_aside
+from . import schedule
 from .claims import Figure, Verdict
 from .figures import Drawn
-from .record import written_aside
 
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #222; margin: 0 auto; padding: 1.5rem;
@@ -75,9 +75,9 @@ claim should fail; where it holds for the control too, the criterion says little
 {"".join(_figure(folder, figure) for figure in statistics)}
 {"".join(figures)}
 <h2>How it was made</h2>
-<p>A run is two rounds of free learning of {experiments.FREE_STEPS} steps, then up to
-{experiments.PATH_ROUNDS} rounds of path learning, each failed after {experiments.STEP_LIMIT} steps;
-a run ends early after {experiments.HOPELESS_ROUNDS} failed rounds in a row, and the rounds left out
+<p>A run is two rounds of free learning of {schedule.FREE_STEPS} steps, then up to
+{schedule.PATH_ROUNDS} rounds of path learning, each failed after {schedule.STEP_LIMIT} steps;
+a run ends early after {schedule.HOPELESS_ROUNDS} failed rounds in a row, and the rounds left out
 count as failed in the statistics of steps. All numbers are in numbers.json.</p>
 <pre>{html.escape(_provenance(provenance))}</pre>
 </body></html>

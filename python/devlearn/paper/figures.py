@@ -15,9 +15,10 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from . import experiments, measures, plots
-from ._core import Robot, Trial, TrialConfig, World, shortest_path
-from .record import Record
+from .. import plots
+from .._core import Robot, Trial, TrialConfig, World, shortest_path
+from ..record import Record
+from . import measures, schedule
 
 # Table 1 of the paper: steps of different rounds.
 PAPER_TABLE_1 = {
@@ -43,19 +44,19 @@ class Gallery:
         self.config = config or TrialConfig.paper()
 
     @cached_property
-    def four(self) -> list[experiments.Run]:
+    def four(self) -> list[schedule.Run]:
         """Two rounds of free learning of seeds 1 to 4."""
-        return [experiments.run(self.world, self.config, seed, rounds=1) for seed in (1, 2, 3, 4)]
+        return [schedule.run(self.world, self.config, seed, rounds=1) for seed in (1, 2, 3, 4)]
 
     @cached_property
-    def long(self) -> experiments.Run:
+    def long(self) -> schedule.Run:
         """The first of the four with all its rounds of path learning."""
-        return experiments.run(self.world, self.config, 1)
+        return schedule.run(self.world, self.config, 1)
 
     @cached_property
-    def settled(self) -> list[experiments.Run]:
+    def settled(self) -> list[schedule.Run]:
         """The first three runs that settled, on different paths."""
-        return list(itertools.islice(experiments.settled_runs(self.world, self.config), 3))
+        return list(itertools.islice(schedule.settled_runs(self.world, self.config), 3))
 
     @cached_property
     def shortest(self) -> int:
@@ -223,11 +224,11 @@ class Gallery:
         assert learner is not None
         figure, axes = _panels(1, 4, height=2.4)
         needed = []
-        for (pose, shortest), ax in zip(experiments.new_starts(self.world, self.config, 4), axes):
-            rounds = experiments.useful_round(self.world, self.config, learner, pose, shortest)
+        for (pose, shortest), ax in zip(schedule.new_starts(self.world, self.config, 4), axes):
+            rounds = schedule.useful_round(self.world, self.config, learner, pose, shortest)
             if rounds is None:
                 plots.plot_world(self.world.with_start(pose), ax=ax, sonar=False, legend=False)
-                ax.set_title(f"not in {experiments.NEW_START_ROUNDS} rounds")
+                ax.set_title(f"not in {schedule.NEW_START_ROUNDS} rounds")
                 needed.append("none")
                 continue
             plots.plot_trajectory(rounds, ax=ax, entry=-1, legend=False, title=False)
@@ -352,8 +353,8 @@ def draw_run(trial: Trial, paths: Record) -> Drawn:
 
 def padded(steps: Sequence[int]) -> list[int]:
     """Steps of all rounds of a run; those it was not given as hopeless count as failed."""
-    missing = experiments.PATH_ROUNDS - len(steps)
-    return [*steps, *[experiments.STEP_LIMIT] * missing]
+    missing = schedule.PATH_ROUNDS - len(steps)
+    return [*steps, *[schedule.STEP_LIMIT] * missing]
 
 
 def _panels(

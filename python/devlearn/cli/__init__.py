@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ._core import Trial, TrialConfig
-    from .record import Record
+    from .._core import Trial, TrialConfig
+    from ..record import Record
 
 _WITHOUT_PLOTS = "no figures: {}; pip install 'devlearn[plots]' brings what they need"
 _RUN_DESCRIPTION = """\
@@ -32,7 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns its exit code: 0, 1 for a refusal, 130 after Ctrl-C."""
     options = _parser().parse_args(arguments)
     # Not before: --help should not wait for them.
-    from .errors import InvalidValue
+    from ..errors import InvalidValue
 
     try:
         code = int(options.verb(options))
@@ -129,22 +129,22 @@ def _parser() -> argparse.ArgumentParser:
 
 class _Version(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        from ._core import __version__, commit
+        from .._core import __version__, commit
 
         print(f"devlearn {__version__} ({commit})")
         parser.exit()
 
 
 def _shipped() -> list[str]:
-    return sorted(path.stem for path in (Path(__file__).parent / "worlds").glob("*.json"))
+    return sorted(path.stem for path in (Path(__file__).parents[1] / "worlds").glob("*.json"))
 
 
 def _reproduce(options: argparse.Namespace) -> int:
-    from .errors import InvalidValue
+    from ..errors import InvalidValue
 
     if options.workers is not None and options.workers < 1:
         raise InvalidValue("--workers", options.workers, "at least 1")
-    from . import reproduce as reproduction
+    from ..paper import reproduce as reproduction
 
     if options.figure is not None:
         for path in reproduction.draw_figure(options.output, options.figure):
@@ -178,10 +178,11 @@ def _say(text: str) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from . import _core, experiments, measures, survival
-    from .errors import InvalidValue
-    from .record import written_aside
-    from .runs import made_folder
+    from .. import _core
+    from ..errors import InvalidValue
+    from ..experiments.runs import made_folder
+    from ..paper import measures, schedule, survival
+    from ..record import written_aside
 
     # At once, not when they are needed.
     limits = {"steps": (0, 40), "rounds": (0, 30), "step_limit": (1, 40), "save_every": (1, 40)}
@@ -192,7 +193,7 @@ def _run(options: argparse.Namespace) -> int:
         allowed = f"at least {least}" if value < least else f"a whole number up to 2^{power}"
         raise InvalidValue("--" + name.replace("_", "-"), value, allowed)
     world = _core.World.load(options.world)
-    config = experiments.preset(options.preset)
+    config = schedule.preset(options.preset)
     if options.config is not None:
         config = _read_config(options.config)
     config = _changed(config, options.set)
@@ -246,8 +247,8 @@ def _run(options: argparse.Namespace) -> int:
 
 def _draw(folder: Path, trial: Trial, paths: Record) -> None:
     try:
-        from .figures import draw_run
-        from .reproduce import save_figure
+        from ..paper.figures import draw_run
+        from ..paper.reproduce import save_figure
     except ImportError as error:
         print(_WITHOUT_PLOTS.format(error), file=sys.stderr)
         return
@@ -255,8 +256,8 @@ def _draw(folder: Path, trial: Trial, paths: Record) -> None:
 
 
 def _read_config(path: str) -> TrialConfig:
-    from ._core import TrialConfig
-    from .errors import FileError, InvalidValue
+    from .._core import TrialConfig
+    from ..errors import FileError, InvalidValue
 
     allowed = "a TrialConfig as JSON"
     try:
@@ -273,7 +274,7 @@ def _read_config(path: str) -> TrialConfig:
 
 
 def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
-    from .errors import InvalidValue
+    from ..errors import InvalidValue
 
     fields = config.to_dict()
     for change in changes:
@@ -302,7 +303,3 @@ def _names(fields: Mapping[str, Any], outer: str = "") -> Iterator[str]:
             yield from _names(value, f"{outer}{name}.")
         else:
             yield outer + name
-
-
-if __name__ == "__main__":
-    sys.exit(main())

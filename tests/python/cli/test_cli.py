@@ -15,18 +15,10 @@ import devlearn
 import numpy as np
 import pytest
 from conftest import differences
-from devlearn import (
-    Record,
-    TrialConfig,
-    World,
-    _core,
-    cli,
-    experiments,
-    measures,
-    runs,
-    survival,
-)
-from devlearn.claims import claims
+from devlearn import Record, TrialConfig, World, _core, cli
+from devlearn.experiments import runs
+from devlearn.paper import measures, schedule, survival
+from devlearn.paper.claims import claims
 
 SHORT = ["--steps", "300", "--rounds", "3", "--step-limit", "200"]
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -35,7 +27,7 @@ PNG = b"\x89PNG\r\n\x1a\n"
 def command(*arguments, **environment):
     """Runs devlearn as its own process."""
     return subprocess.run(
-        [sys.executable, "-m", "devlearn.cli", *map(str, arguments)],
+        [sys.executable, "-m", "devlearn", *map(str, arguments)],
         capture_output=True,
         text=True,
         timeout=120,
@@ -293,7 +285,7 @@ def test_run_refuses_a_state_that_is_damaged(tmp_path, monkeypatch, capsys):
 
 def test_a_reader_who_leaves_is_no_error_of_ours(tmp_path):
     run = subprocess.Popen(
-        [sys.executable, "-m", "devlearn.cli", "run", "empty", *SHORT, "--output", tmp_path],
+        [sys.executable, "-m", "devlearn", "run", "empty", *SHORT, "--output", tmp_path],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
     run.stdout.close()
@@ -413,18 +405,18 @@ def test_reproduce_without_matplotlib_says_what_to_install(tmp_path, without_mat
 @pytest.fixture(scope="module")
 def small():
     """Section VI in small: every run is short, and counts as settled."""
-    from devlearn import figures
+    from devlearn.paper import figures
 
     with pytest.MonkeyPatch.context() as patch:
         for name, value in {
             "FREE_STEPS": 3000, "STEP_LIMIT": 2500, "PATH_ROUNDS": 6, "CONTROL_ROUNDS": 1,
             "SIMILAR_ROUNDS": 2, "SIMILAR_CONTROL_ROUNDS": 1, "NEW_START_ROUNDS": 4,
         }.items():  # fmt: skip
-            patch.setattr(experiments, name, value)
+            patch.setattr(schedule, name, value)
         short = {"rounds": 6, "free_steps": 3000, "step_limit": 2500}
         for key, value in short.items():
-            patch.setitem(experiments.run.__kwdefaults__, key, value)
-        patch.setitem(experiments.job.__kwdefaults__, "rounds", 6)
+            patch.setitem(schedule.run.__kwdefaults__, key, value)
+        patch.setitem(schedule.job.__kwdefaults__, "rounds", 6)
         patch.setattr(measures, "settled_round", lambda record: int(record.rounds["round"][-1]))
         patch.setattr(figures, "PAPER_TABLE_1", {4: 194, 8: 149})
         patch.setattr(runs, "code_fingerprint", lambda: "this code")  # whoever edits it meanwhile
@@ -474,7 +466,7 @@ def test_one_figure_is_drawn_by_its_number_and_nothing_else(tmp_path):
 
 @pytest.mark.parametrize("number", NAMES)
 def test_every_number_draws_its_figures(small, tmp_path, capsys, monkeypatch, number):
-    from devlearn import figures, reproduce
+    from devlearn.paper import figures, reproduce
 
     monkeypatch.setattr(figures, "Gallery", lambda: small)  # whose runs are made once
     monkeypatch.setattr(reproduce, "save_figure", lambda folder, drawn: [folder / drawn.name])
@@ -487,7 +479,7 @@ def test_every_number_draws_its_figures(small, tmp_path, capsys, monkeypatch, nu
 
 
 def test_a_figure_drawn_again_is_the_same_file(small, tmp_path, monkeypatch):
-    from devlearn import figures
+    from devlearn.paper import figures
 
     monkeypatch.setattr(figures, "Gallery", lambda: small)
     for name in "ab":
@@ -578,9 +570,9 @@ def test_reproducing_again_runs_nothing_again(reproduced, small, monkeypatch, ca
     def never(job):
         raise AssertionError("run again")
 
-    from devlearn import figures
+    from devlearn.paper import figures
 
-    monkeypatch.setattr(experiments, "execute", never)
+    monkeypatch.setattr(schedule, "execute", never)
     monkeypatch.setattr(figures, "FIGURES", {})  # they take most of the time
     line = ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(folder)]
     assert cli.main(line) == 0
@@ -601,8 +593,8 @@ def test_reproduce_that_is_stopped_says_how_to_go_on(small, tmp_path, monkeypatc
             raise KeyboardInterrupt
         return execute(job)
 
-    execute = experiments.execute
-    monkeypatch.setattr(experiments, "execute", stopped)
+    execute = schedule.execute
+    monkeypatch.setattr(schedule, "execute", stopped)
     line = ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(tmp_path)]
     assert cli.main(line) == 130
     err = capsys.readouterr().err

@@ -13,8 +13,10 @@ from pathlib import Path
 
 import devlearn
 import pytest
-from devlearn import FileError, experiments, runs
-from devlearn.runs import Journal, run_all
+from devlearn import FileError
+from devlearn.experiments import runs
+from devlearn.experiments.runs import Journal, run_all
+from devlearn.paper import schedule
 
 SOON = 10.0  # [s] what should happen at once, on a busy machine
 
@@ -59,12 +61,12 @@ def eventually(condition, seconds=SOON):
 
 
 def test_results_do_not_depend_on_the_number_of_workers_to_the_bit(paper, tmp_path):
-    config = experiments.preset("paper")
-    jobs = [experiments.job(paper, config, seed, rounds=2, shortest=113) for seed in (1, 2, 3)]
+    config = schedule.preset("paper")
+    jobs = [schedule.job(paper, config, seed, rounds=2, shortest=113) for seed in (1, 2, 3)]
     texts = []
     for workers in (1, 2, 3):
         journal = Journal(tmp_path / f"{workers}.jsonl")
-        texts.append(json.dumps(run_all(experiments.execute, jobs, journal, workers=workers)))
+        texts.append(json.dumps(run_all(schedule.execute, jobs, journal, workers=workers)))
         journal.close()
     assert texts[0] == texts[1] == texts[2]
     assert len({json.dumps(result) for result in json.loads(texts[0])}) == 3
@@ -117,11 +119,11 @@ def test_a_stopped_sweep_goes_on_without_repeating(tmp_path):
 
 
 def test_a_result_from_the_journal_is_the_result_as_it_was(paper, tmp_path):
-    jobs = [experiments.job(paper, experiments.preset("paper"), 1, rounds=1)]
+    jobs = [schedule.job(paper, schedule.preset("paper"), 1, rounds=1)]
     texts = []
     for _ in range(2):
         journal = Journal(tmp_path / "runs.jsonl")
-        texts.append(json.dumps(run_all(experiments.execute, jobs, journal, workers=1)))
+        texts.append(json.dumps(run_all(schedule.execute, jobs, journal, workers=1)))
         journal.close()
     assert texts[0] == texts[1]
     assert len((tmp_path / "runs.jsonl").read_text().splitlines()) == 1
@@ -183,15 +185,17 @@ def test_what_other_code_made_is_not_taken_for_a_result(tmp_path, monkeypatch):
 def test_every_python_file_of_the_package_and_the_extension_make_the_fingerprint(
     tmp_path, monkeypatch
 ):
-    for name in ("runs.py", "measures.py"):
-        (tmp_path / name).write_text(name)
+    for name in ("experiments", "paper"):
+        (tmp_path / name).mkdir()
+    measures = tmp_path / "paper" / "measures.py"
+    measures.write_text("one")
     extension = tmp_path / "_core.so"
     extension.write_bytes(b"one")
-    monkeypatch.setattr(runs, "__file__", str(tmp_path / "runs.py"))
+    monkeypatch.setattr(runs, "__file__", str(tmp_path / "experiments" / "runs.py"))
     monkeypatch.setattr(runs._core, "__file__", str(extension))
     prints = [runs.code_fingerprint(), runs.code_fingerprint()]
     assert prints[0] == prints[1]
-    (tmp_path / "measures.py").write_text("another")
+    measures.write_text("another")
     prints.append(runs.code_fingerprint())
     extension.write_bytes(b"two")
     prints.append(runs.code_fingerprint())
@@ -250,7 +254,7 @@ SWEEP = """
     import sys
     sys.path.insert(0, {tests!r})
     from pathlib import Path
-    from devlearn.runs import Journal, run_all
+    from devlearn.experiments.runs import Journal, run_all
     from test_runs import square, squares
 
     if __name__ == "__main__":
