@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "bindings.hpp"
+#include "devlearn/detail/require.hpp"
 
 namespace devlearn::python {
 namespace {

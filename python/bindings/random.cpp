@@ -1,6 +1,7 @@
 #include "devlearn/random.hpp"
 
 #include "bindings.hpp"
+#include "devlearn/detail/require.hpp"
 
 namespace devlearn::python {
 namespace {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "devlearn/detail/require.hpp"
 #include "devlearn/shortest_path.hpp"
 
 namespace devlearn::python {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "bindings.hpp"
+#include "devlearn/detail/require.hpp"
 
 namespace devlearn::python {
 namespace {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
 

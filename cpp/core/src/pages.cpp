@@ -1,4 +1,4 @@
-#include "devlearn/pages.hpp"
+#include "devlearn/detail/pages.hpp"
 
 #include <sys/mman.h>
 

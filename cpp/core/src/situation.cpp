@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "devlearn/error.hpp"
+#include "devlearn/detail/require.hpp"
 #include "devlearn/math.hpp"
 
 namespace devlearn {

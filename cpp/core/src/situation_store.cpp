@@ -1,4 +1,4 @@
-#include "devlearn/situation_store.hpp"
+#include "devlearn/detail/situation_store.hpp"
 
 #include <algorithm>
 #include <string>

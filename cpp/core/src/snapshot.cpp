@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/version.hpp"
 #include "excerpt.hpp"

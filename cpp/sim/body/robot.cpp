@@ -9,6 +9,7 @@
 
 #include "body/box2d_vector.hpp"
 #include "body/drive.hpp"
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
 #include "world/geometry.hpp"

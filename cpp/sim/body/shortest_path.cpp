@@ -7,6 +7,7 @@
 #include <string>
 #include <unordered_set>
 
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "world/geometry.hpp"
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "loop/record_columns.hpp"
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 
 namespace devlearn {

@@ -5,6 +5,7 @@
 #include <typeinfo>
 #include <utility>
 
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "excerpt.hpp"
 #include "file.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
 #include "world/geometry.hpp"

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/random.hpp"
 #include "refusal.hpp"

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
 namespace devlearn {
 
@@ -47,40 +45,5 @@ class FileError : public InvalidValue {
 
 /// The shortest decimal text that reads back as `value`; for messages and files.
 std::string to_text(double value);
-
-[[noreturn]] void refuse_outside(std::string_view quantity, double value, char left, double low,
-                                 double high, char right, std::string_view unit);
-
-/// Throws InvalidValue unless `value` lies in [low, high] (so NaN never does); `unit` is for the
-/// message.
-inline void require_in(std::string_view quantity, double value, double low, double high,
-                       std::string_view unit = "") {
-  if (!(value >= low && value <= high)) refuse_outside(quantity, value, '[', low, high, ']', unit);
-}
-/// The same for the open interval (low, high).
-inline void require_between(std::string_view quantity, double value, double low, double high,
-                            std::string_view unit = "") {
-  if (!(value > low && value < high)) refuse_outside(quantity, value, '(', low, high, ')', unit);
-}
-/// The same for the half-open interval (low, high].
-inline void require_above(std::string_view quantity, double value, double low, double high,
-                          std::string_view unit = "") {
-  if (!(value > low && value <= high)) refuse_outside(quantity, value, '(', low, high, ']', unit);
-}
-[[noreturn]] void refuse_infinite(std::string_view quantity, double value);
-
-/// Throws InvalidValue unless `value` is neither infinite nor NaN.
-inline void require_finite(std::string_view quantity, double value) {
-  if (!std::isfinite(value)) refuse_infinite(quantity, value);
-}
-
-[[noreturn]] void refuse_count(std::string_view quantity, long long value, long long low,
-                               long long high);
-
-/// Throws InvalidValue unless the whole number lies in [low, high].
-inline void require_count(std::string_view quantity, long long value, long long low,
-                          long long high) {
-  if (value < low || value > high) refuse_count(quantity, value, low, high);
-}
 
 }  // namespace devlearn

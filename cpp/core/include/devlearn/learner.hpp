@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "devlearn/choice.hpp"
+#include "devlearn/detail/situation_store.hpp"
 #include "devlearn/explanation.hpp"
 #include "devlearn/motor_memory.hpp"
 #include "devlearn/random.hpp"
 #include "devlearn/situation.hpp"
-#include "devlearn/situation_store.hpp"
 
 namespace devlearn {
 

@@ -18,6 +18,12 @@ struct SituationMemory {
   std::vector<std::uint32_t> times_learned;  ///< n_ij of each effective motion; stops at 2^32 - 1
 };
 
+/// Memory in bytes.
+struct MemoryUse {
+  std::size_t used = 0;   ///< by the situations experienced, their index included
+  std::size_t spare = 0;  ///< held for more of them: reserved, or left over by growth
+};
+
 /// One situation's motor memory where it lies: the lists and orientations, and the laws by which
 /// they develop. A view of storage that someone else owns (the learner's); it allocates nothing.
 ///

@@ -5,17 +5,11 @@
 #include <cstring>
 #include <vector>
 
+#include "devlearn/detail/pages.hpp"
 #include "devlearn/motor_memory.hpp"
-#include "devlearn/pages.hpp"
 #include "devlearn/situation.hpp"
 
 namespace devlearn {
-
-/// Memory in bytes.
-struct MemoryUse {
-  std::size_t used = 0;   ///< by the situations experienced, their index included
-  std::size_t spare = 0;  ///< held for more of them: reserved, or left over by growth
-};
 
 /// The situations experienced, in the order they came, and where each one's motor memory lies.
 ///
