@@ -7,6 +7,7 @@ import devlearn
 import matplotlib
 import matplotlib.pyplot as plt
 from devlearn import plots
+from devlearn.plots.style import BLACK
 from PIL import Image
 
 HERE = Path(__file__).resolve().parent
@@ -47,7 +48,7 @@ def draw_readme():
     plots.plot_trajectory(first, ax=axes[0], legend=False)
     plots.plot_preferences(trial.world, trial.learner, ax=axes[1], colorbar=False, legend=False)
     plots.plot_sef(trial.world, ax=axes[2], colorbar=False)
-    plots.plot_trajectory(paths, ax=axes[2], entry=-1, by=None, color=plots.BLACK, world=False)
+    plots.plot_trajectory(paths, ax=axes[2], entry=-1, by=None, color=BLACK, world=False)
     axes[2].lines[-1].set_linewidth(2.0)
     number, steps, _ = paths.rounds[-1]
     titles = (

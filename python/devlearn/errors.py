@@ -53,3 +53,17 @@ class FileError(InvalidValue, OSError):
     def __str__(self) -> str:
         where = f"{self.file}: {self.field}" if self.field else self.file
         return f"{where}: got {self.value}; expected {self.allowed}"
+
+
+class MissingExtra(ImportError):
+    """A part of devlearn needs a package of an extra that is not installed; it says which.
+
+    Parameters: what needs it, the package, the extra of ``pyproject.toml`` that brings it.
+    """
+
+    def __init__(self, what: str, package: str, extra: str) -> None:
+        super().__init__(
+            f"{what} needs {package}, which is not installed: pip install {package}, or "
+            f"pip install '.[{extra}]' in devlearn's sources",
+            name=package,
+        )

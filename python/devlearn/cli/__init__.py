@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from .._core import Trial, TrialConfig
     from ..record import Record
 
-_WITHOUT_PLOTS = "no figures: {}; pip install 'devlearn[plots]' brings what they need"
 _RUN_DESCRIPTION = """\
 One experiment: two rounds of free learning, then path learning by rounds until
 the target is reached. Prints what came of it and writes the records, a table
@@ -32,7 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns its exit code: 0, 1 for a refusal, 130 after Ctrl-C."""
     options = _parser().parse_args(arguments)
     # Not before: --help should not wait for them.
-    from ..errors import InvalidValue
+    from ..errors import InvalidValue, MissingExtra
 
     try:
         code = int(options.verb(options))
@@ -41,13 +40,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # who read the output has left, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
-    except (InvalidValue, OSError) as error:
+    except (InvalidValue, MissingExtra, OSError) as error:
         print(f"devlearn: {error}", file=sys.stderr)
-        return 1
-    except ImportError as error:
-        if "matplotlib" not in str(error):
-            raise
-        print(f"devlearn: {_WITHOUT_PLOTS.format(error)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("devlearn: stopped", file=sys.stderr)
@@ -246,11 +240,13 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _draw(folder: Path, trial: Trial, paths: Record) -> None:
+    from ..errors import MissingExtra
+
     try:
         from ..paper.figures import draw_run
         from ..paper.reproduce import save_figure
-    except ImportError as error:
-        print(_WITHOUT_PLOTS.format(error), file=sys.stderr)
+    except MissingExtra as error:
+        print(f"no figures: {error}", file=sys.stderr)
         return
     save_figure(folder, draw_run(trial, paths))
 

@@ -17,6 +17,8 @@ from matplotlib.figure import Figure
 
 from .. import plots
 from .._core import Robot, Trial, TrialConfig, World, shortest_path
+from ..analysis.episodes import find_entry_and_window, find_episodes
+from ..plots.style import BLACK, BLUE, STYLE, VERMILLION
 from ..record import Record
 from . import measures, schedule
 
@@ -65,7 +67,7 @@ class Gallery:
 
     def draw(self, number: int) -> list[Drawn]:
         """The figures of a number of the paper's; 0 stands for those beyond it."""
-        with mpl.rc_context(plots.STYLE):
+        with mpl.rc_context(STYLE):
             return FIGURES[number](self)
 
     # --- the paper's figures ----------------------------------------------------------------------
@@ -123,7 +125,7 @@ class Gallery:
 
     def _episodes(self) -> list[Drawn]:
         record = self.four[0].first
-        found = plots.find_episodes(record)
+        found = find_episodes(record)
         figure, ax = _panels(1, 1, height=2.8, width=4.8)
         plots.plot_episodes(record, ax=ax[0])
         missing = "".join(sorted(kind for kind, where in found.items() if where is None))
@@ -143,7 +145,7 @@ class Gallery:
             places = [
                 (phase, searched, place)
                 for phase, searched in phases.items()
-                if (place := plots.find_entry_and_window(searched, kind)) is not None
+                if (place := find_entry_and_window(searched, kind)) is not None
             ]
             if not places:
                 drawn[0] = drawn[0]._replace(caption=drawn[0].caption + f" {kind} never occurs.")
@@ -295,9 +297,9 @@ FIGURES: Mapping[int, Callable[[Gallery], list[Drawn]]] = {
 
 def draw_rounds_over_seeds(runs_by_preset: Mapping[str, Sequence[Mapping[str, Any]]]) -> Drawn:
     """Steps by round, median and 10th to 90th percentile of the runs, beside the paper's."""
-    with mpl.rc_context(plots.STYLE):
+    with mpl.rc_context(STYLE):
         figure, (ax,) = _panels(1, 1, width=4.8, height=3.0)
-        styles = [(plots.BLUE, "-"), (plots.VERMILLION, "--")]
+        styles = [(BLUE, "-"), (VERMILLION, "--")]
         for (name, runs), (color, line) in zip(runs_by_preset.items(), styles):
             # Runs that were ended as hopeless count as failed from there on.
             steps = np.array([padded(run["round_steps"]) for run in runs])
@@ -306,7 +308,7 @@ def draw_rounds_over_seeds(runs_by_preset: Mapping[str, Sequence[Mapping[str, An
             ax.fill_between(rounds, low, high, color=color, alpha=0.18, linewidth=0)
             ax.plot(rounds, median, line, color=color, label=f"{name}: median, 10-90 %")
         ax.plot(
-            list(PAPER_TABLE_1), list(PAPER_TABLE_1.values()), "o", color=plots.BLACK,
+            list(PAPER_TABLE_1), list(PAPER_TABLE_1.values()), "o", color=BLACK,
             markersize=3.5, label="Table 1 of the paper",
         )  # fmt: skip
         ax.set_yscale("log")
@@ -322,7 +324,7 @@ def draw_rounds_over_seeds(runs_by_preset: Mapping[str, Sequence[Mapping[str, An
 
 def draw_sigmas(by_sigma: Mapping[float, Sequence[Mapping[str, Any]]]) -> Drawn:
     """When runs settle, and how long their last rounds are, by sigma."""
-    with mpl.rc_context(plots.STYLE):
+    with mpl.rc_context(STYLE):
         figure, axes = _panels(1, 2, height=2.8)
         for ax, measure, label in zip(
             axes,
@@ -340,7 +342,7 @@ def draw_sigmas(by_sigma: Mapping[float, Sequence[Mapping[str, Any]]]) -> Drawn:
 
 def draw_run(trial: Trial, paths: Record) -> Drawn:
     """One run at a glance: its last path, what it prefers, and the steps of its rounds."""
-    with mpl.rc_context(plots.STYLE):
+    with mpl.rc_context(STYLE):
         panels = 1 + (len(paths.rounds) > 0) * 2
         figure, axes = _panels(1, panels, width=3.6 * panels, height=3.6)
         if len(paths.rounds):

@@ -10,12 +10,24 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from devlearn import Event, InvalidValue, Kind, plots
-from devlearn.record import STEP_COLUMNS, provenance_of
+from devlearn import InvalidValue, Kind, plots
+from devlearn.plots.style import COLUMN
+from devlearn.record import STEP_COLUMNS
+from handmade import (
+    ABANDONMENT,
+    ALL_FOUR,
+    EFFECTIVE,
+    INEFFECTIVE,
+    NO_CHANGE,
+    REDUCTION,
+    RETRY,
+    E,
+    H,
+    X,
+    hand_made,
+)
 
 matplotlib.use("Agg")
-
-E, X, H = Kind.EXPLORE, Kind.EXPLOIT, Kind.EXHAUSTED
 
 
 @pytest.fixture(scope="module")
@@ -42,35 +54,6 @@ def no_figure_stays_open():
 @pytest.fixture
 def ax():
     return plt.figure().add_subplot()
-
-
-def hand_made(steps, *, before=(0, 0), rounds=None):
-    """A record of (kind, event, reduced) a step, with the counts that follow from them."""
-    kind, event, reduced = (np.array(column) for column in zip(*steps))
-    entered = (event == Event.EXTENSION).astype(int)
-    left = (event == Event.ABANDONMENT) + reduced
-    rounds = rounds or [(1, len(steps), False)]
-    columns = {name: np.zeros(len(steps), dtype) for name, dtype in STEP_COLUMNS.items()}
-    columns |= {
-        "kind": kind.astype(np.uint8),
-        "event": event.astype(np.uint8),
-        "reduced": reduced.astype(np.int32),
-        "explored_count": np.cumsum(kind == E) + before[0],
-        "effective_count": np.cumsum(entered - left) + before[1],
-        "rounds": np.array(rounds, dtype=[("round", "i4"), ("steps", "i8"), ("arrived", "?")]),
-    }
-    columns |= {name: np.zeros(len(steps) + len(rounds)) for name in ("x", "y", "heading")}
-    world = devlearn.World.load("empty")
-    provenance = provenance_of(world, devlearn.TrialConfig(), 0, None)
-    return devlearn.Record(columns, provenance)
-
-
-EFFECTIVE = (E, Event.EXTENSION, 0)
-INEFFECTIVE = (E, Event.REJECTION, 0)
-NO_CHANGE = (X, Event.ORIENTATION, 0)
-REDUCTION = (X, Event.ORIENTATION, 1)
-ABANDONMENT = (X, Event.ABANDONMENT, 0)
-RETRY = (H, Event.EXTENSION, 0)
 
 
 def by_gid(ax, gid):
@@ -118,7 +101,7 @@ def test_without_axes_a_figure_of_a_columns_width_is_made(free, paths, trial):
         figures = len(plt.get_fignums())
         ax = plot(None)
         assert len(plt.get_fignums()) == figures + 1, name
-        assert ax.figure.get_figwidth() == plots.COLUMN, name
+        assert ax.figure.get_figwidth() == COLUMN, name
 
 
 def test_nothing_drawn_in_a_figure_of_its_own_is_cut_off(free, paths, trial):
@@ -166,7 +149,7 @@ def test_maps_have_equal_aspect_and_metres(free, paths, trial):
 def test_devlearn_itself_does_not_need_matplotlib(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     monkeypatch.delitem(sys.modules, "devlearn.plots")
-    with pytest.raises(ImportError, match=r"pip install devlearn\[plots\]"):
+    with pytest.raises(ImportError, match=r"pip install matplotlib, or pip install '\.\[plots\]'"):
         importlib.import_module("devlearn.plots")
 
 
@@ -361,33 +344,6 @@ def test_counts_are_the_records_one_step_later(free, ax):
         np.testing.assert_array_equal(values, [0, *column[:-1]])
 
 
-def test_counts_of_a_later_record_begin_with_what_was_known(free, paths):
-    explored, effective = plots.counts_before(paths, 0)
-    assert (explored[0], effective[0]) == (free.explored_count[-1], free.effective_count[-1])
-    explored, effective = plots.counts_before(paths, 1)
-    last = paths.steps_of(0).stop - 1
-    assert explored[0] == paths.explored_count[last]
-    assert effective[0] == paths.effective_count[last]
-    assert len(explored) == paths.rounds["steps"][1] + 1
-
-
-@pytest.mark.parametrize(
-    ("first", "known"),
-    [
-        (EFFECTIVE, (12, 7)),
-        (INEFFECTIVE, (12, 7)),
-        (NO_CHANGE, (12, 7)),
-        ((X, Event.ORIENTATION, 3), (12, 7)),
-        (ABANDONMENT, (12, 7)),
-        (RETRY, (12, 7)),
-    ],
-)
-def test_counts_before_a_records_first_step_follow_from_what_it_did(first, known):
-    record = hand_made([first, NO_CHANGE], before=known)
-    explored, effective = plots.counts_before(record)
-    assert (explored[0], effective[0]) == known
-
-
 def test_counts_of_a_window_are_those_steps(free, ax):
     plots.plot_counts(free, ax=ax, steps=(100, 130))
     steps, values = xy(ax, "explored").T
@@ -405,100 +361,6 @@ def test_relative_counts_begin_at_zero_and_tell_from_where(free, ax):
 
 
 # --- episodes -------------------------------------------------------------------------------------
-
-#  steps          1-2              3            4-6                7-11
-ALL_FOUR = [INEFFECTIVE] * 2 + [EFFECTIVE] + [NO_CHANGE] * 3 + [INEFFECTIVE] * 5
-#  steps          12            13            14-17           18 ...
-ALL_FOUR += [EFFECTIVE] + [ABANDONMENT] + [NO_CHANGE] * 4 + [REDUCTION] + [RETRY] * 12
-
-
-def test_the_papers_four_kinds_are_found_where_they_are():
-    assert plots.find_episodes(hand_made(ALL_FOUR)) == {
-        "a": (3, 4),
-        "b": (7, 12),
-        "c": (14, 18),
-        "d": (18, 19),
-    }
-
-
-def test_an_episode_is_what_the_counts_show():
-    record = hand_made(ALL_FOUR)
-    explored, effective = plots.counts_before(record)
-    change = {
-        name: (
-            int(explored[episode.last - 1] - explored[episode.first - 1]),
-            int(effective[episode.last - 1] - effective[episode.first - 1]),
-        )
-        for name, episode in plots.find_episodes(record).items()
-    }
-    assert change == {"a": (1, 1), "b": (5, 0), "c": (0, 0), "d": (0, -1)}
-
-
-def test_an_abandonment_is_no_reduction():
-    record = hand_made([EFFECTIVE, ABANDONMENT, NO_CHANGE])
-    assert plots.find_episodes(record)["d"] is None
-    assert plots.find_abandonment(record) == (2, 3)
-    assert plots.find_abandonment(hand_made([EFFECTIVE, REDUCTION, NO_CHANGE])) is None
-
-
-def test_a_retry_is_neither_exploration_nor_exploitation():
-    found = plots.find_episodes(hand_made([RETRY] * 10))
-    assert set(found.values()) == {None}
-
-
-def test_one_step_is_no_run():
-    record = hand_made([INEFFECTIVE, NO_CHANGE, INEFFECTIVE, NO_CHANGE, EFFECTIVE, RETRY])
-    assert plots.find_episodes(record) == {"a": (5, 6), "b": None, "c": None, "d": None}
-
-
-def test_of_equal_runs_the_first_is_taken():
-    record = hand_made([INEFFECTIVE] * 3 + [NO_CHANGE] + [INEFFECTIVE] * 3 + [RETRY])
-    assert plots.find_episodes(record)["b"] == (1, 4)
-
-
-def test_an_episode_ends_within_its_window():
-    record = hand_made([NO_CHANGE] * 29 + [EFFECTIVE] + [NO_CHANGE] * 10)
-    # The outcome of step 30 shows at step 31.
-    assert plots.find_episodes(record)["a"] is None
-    assert plots.find_episodes(record, window=(0, 31))["a"] == (30, 31)
-    assert plots.find_episodes(record)["c"] == (1, 30)
-    assert plots.find_episodes(record, window=(35, 99))["c"] == (36, 40)
-
-
-def test_episodes_are_those_of_the_round_asked_for():
-    steps = [INEFFECTIVE] * 4 + [NO_CHANGE] * 2 + [REDUCTION] + [NO_CHANGE]
-    record = hand_made(steps, before=(9, 9), rounds=[(1, 4, True), (2, 4, True)])
-    assert plots.find_episodes(record, entry=0)["d"] is None
-    assert plots.find_episodes(record, entry=1) == {"a": None, "b": None, "c": (1, 3), "d": (3, 4)}
-
-
-def test_the_first_window_is_found_if_it_has_all_kinds():
-    assert plots.find_window(hand_made(ALL_FOUR)) == (0, 30)
-
-
-def test_a_window_shows_the_kind_it_was_asked_for():
-    record = hand_made([INEFFECTIVE] * 200 + [EFFECTIVE] + [INEFFECTIVE] * 200)
-    assert plots.find_episodes(record)["a"] is None
-    start, stop = plots.find_window(record, "a")
-    assert stop - start == 30
-    assert plots.find_episodes(record, window=(start, stop))["a"] == (201, 202)
-    assert abs((start + stop) / 2 - 201) <= 1  # in the middle
-    assert plots.find_window(record, "d") is None
-
-
-def test_windows_found_have_every_kind_asked_for(free):
-    for kinds in ("a", "b", "c", "ab", "bc", "abc"):
-        window = plots.find_window(free, kinds)
-        found = plots.find_episodes(free, window=window)
-        assert all(found[kind] for kind in kinds), kinds
-
-
-def test_the_round_that_has_the_kind_is_found():
-    steps = [NO_CHANGE] * 6 + [REDUCTION] + [NO_CHANGE] * 3
-    record = hand_made(steps, before=(9, 9), rounds=[(3, 5, True), (4, 5, True)])
-    entry, window = plots.find_entry_and_window(record, "d")
-    assert (entry, window) == (1, (0, 5))
-    assert plots.find_entry_and_window(record, "a") is None
 
 
 def test_rectangles_stand_around_their_episodes(ax):
@@ -539,11 +401,8 @@ def test_a_later_window_is_drawn_from_zero_and_its_rectangles_too(ax):
 @pytest.mark.parametrize("window", [(-1, 30), (5, 5), (30, 0)])
 def test_a_window_that_is_none_is_refused(window):
     record = hand_made([NO_CHANGE] * 40)
-    for call in (plots.find_episodes, plots.plot_episodes):
-        with pytest.raises(InvalidValue, match="window"):
-            call(record, window=window)
-    with pytest.raises(InvalidValue, match="kinds"):
-        plots.find_window(record, "e")
+    with pytest.raises(InvalidValue, match="window"):
+        plots.plot_episodes(record, window=window)
 
 
 # --- rounds ---------------------------------------------------------------------------------------
@@ -573,53 +432,10 @@ def test_a_span_of_more_than_ten_is_drawn_on_a_logarithmic_axis():
 # --- preferences ----------------------------------------------------------------------------------
 
 
-def learned(*outcomes):
-    """A learner, a grid of 0.25 m, and for each (pose, motion, smf) an update."""
-    grid = devlearn.SituationGrid()
-    learner = devlearn.Learner(seed=0)
-    for pose, motion, smf in outcomes:
-        learner.update(grid.situation(*pose), motion, smf)
-    return learner, grid
-
-
-def test_an_arrow_points_where_the_preferred_motion_leads():
-    # Heading 90 degrees, motion 1 turns by -30.
-    learner, grid = learned(((0.3, 0.3, 90.0), 1, 1.0))
-    field = plots.preference_field(devlearn.World(), learner, grid=grid)
-    assert (field.x.item(), field.y.item()) == (0.375, 0.375)
-    np.testing.assert_allclose((field.u.item(), field.v.item()), (0.5, math.sqrt(0.75)), atol=1e-12)
-    assert field.times.item() == 1
-
-
-def test_the_motion_of_the_highest_orientation_is_the_preferred_one():
-    learner, grid = learned(
-        ((0.3, 0.3, 0.0), 0, 1.0), ((0.3, 0.3, 0.0), 4, 1.0), ((0.3, 0.3, 0.0), 4, 5.0)
-    )
-    field = plots.preference_field(devlearn.World(), learner, grid=grid)
-    assert math.degrees(math.atan2(field.v.item(), field.u.item())) == pytest.approx(60.0)
-
-
-def test_headings_that_disagree_shorten_the_arrow():
-    # Straight on, to the east and to the north, equally often; then to the west.
-    east, north = ((0.3, 0.3, 0.0), 2, 1.0), ((0.3, 0.3, 90.0), 2, 1.0)
-    learner, grid = learned(east, north)
-    field = plots.preference_field(devlearn.World(), learner, grid=grid)
-    np.testing.assert_allclose((field.u.item(), field.v.item()), (0.5, 0.5), atol=1e-12)
-    learner, grid = learned(east, ((0.3, 0.3, 180.0), 2, 1.0))
-    field = plots.preference_field(devlearn.World(), learner, grid=grid)
-    np.testing.assert_allclose((field.u.item(), field.v.item()), (0, 0), atol=1e-12)
-
-
-def test_what_was_learned_more_often_weighs_more():
-    east, north = ((0.3, 0.3, 0.0), 2, 1.0), ((0.3, 0.3, 90.0), 2, 1.0)
-    learner, grid = learned(east, north, north, north)
-    field = plots.preference_field(devlearn.World(), learner, grid=grid)
-    np.testing.assert_allclose((field.u.item(), field.v.item()), (0.25, 0.75), atol=1e-12)
-    assert field.times.item() == 4
-
-
 def test_ineffective_mappings_have_no_arrow(ax):
-    learner, grid = learned(((0.3, 0.3, 0.0), 2, 1.0), ((4.0, 4.0, 0.0), 2, -1.0))
+    learner, grid = devlearn.Learner(seed=0), devlearn.SituationGrid()
+    learner.update(grid.situation(0.3, 0.3, 0.0), 2, 1.0)
+    learner.update(grid.situation(4.0, 4.0, 0.0), 2, -1.0)
     plots.plot_preferences(devlearn.World(), learner, grid=grid, ax=ax)
     np.testing.assert_array_equal(by_gid(ax, "preferences").get_offsets(), [(0.375, 0.375)])
     np.testing.assert_array_equal(xy(ax, "nothing-effective"), [(4.125, 4.125)])
@@ -634,16 +450,6 @@ def test_the_arrows_are_those_of_the_field_and_stay_in_their_cells(trial, free, 
     np.testing.assert_allclose(drawn, 0.9 * 0.25 * expected)
     np.testing.assert_array_equal(arrows.get_array(), field.times[knows])
     assert np.hypot(*drawn.T).max() <= 0.25
-
-
-def test_the_grid_is_the_trials_where_none_is_given():
-    world = devlearn.World.load("office")
-    trial = devlearn.Trial(world, seed=0)
-    trial.run(500)
-    without = plots.preference_field(world, trial.learner, config=trial.config)
-    given = plots.preference_field(world, trial.learner, grid=trial.grid, config=trial.config)
-    for a, b in zip(without, given):
-        np.testing.assert_array_equal(a, b)
 
 
 def test_a_learner_of_other_situations_is_refused(ax):

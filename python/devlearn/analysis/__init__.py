@@ -1,0 +1,24 @@
+"""What is read off records, worlds and learners, for plots and for whoever likes: numpy alone."""
+
+from .counts import counts_before
+from .episodes import (
+    Episode,
+    find_abandonment,
+    find_entry_and_window,
+    find_episodes,
+    find_window,
+)
+from .fields import PreferenceField, SefField, preference_field, sef_field
+
+__all__ = [
+    "Episode",
+    "PreferenceField",
+    "SefField",
+    "counts_before",
+    "find_abandonment",
+    "find_entry_and_window",
+    "find_episodes",
+    "find_window",
+    "preference_field",
+    "sef_field",
+]

@@ -1,0 +1,140 @@
+"""Fields over the arena: the state evaluation, and what a learner prefers."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from .._core import Learner, SituationGrid, StateEvaluation, TrialConfig, World
+from ..errors import InvalidValue
+from ..record import Record
+
+
+def world_of(source: World | Record) -> World:
+    """The world itself, or a record's."""
+    return source.world if isinstance(source, Record) else source
+
+
+def config_of(source: World | Record, config: TrialConfig | None = None) -> TrialConfig:
+    """The configuration given, else a record's own, else the default."""
+    if config is not None:
+        return config
+    return source.config if isinstance(source, Record) else TrialConfig()
+
+
+class SefField(NamedTuple):
+    """SEF (Eq. 6) at the points of a mesh over the arena."""
+
+    x: npt.NDArray[np.float64]
+    """Columns of the mesh [m], from 0 to the arena's width: (n,)."""
+    y: npt.NDArray[np.float64]
+    """Rows [m], from 0 to its height: (m,)."""
+    sef: npt.NDArray[np.float64]
+    """SEF, no unit: (m, n)."""
+    floor: float
+    """Where a scale may end: below it are but the pits at the obstacles."""
+
+
+def sef_field(
+    source: World | Record,
+    evaluation: StateEvaluation | None = None,
+    walls_count: bool | None = None,
+    points: int = 301,
+    floor: float | None = None,
+) -> SefField:
+    """SEF over the arena, ``points`` (at least 2) along its longer side.
+
+    ``evaluation`` and ``walls_count`` are a record's own, else the defaults. SEF falls steeply at
+    the obstacles, which would take most of a scale: ``floor`` is by default half of the range of
+    the target's term below that term's least value, and never below the least SEF. Raises
+    InvalidValue.
+    """
+    if points < 2:
+        raise InvalidValue("points", points, "at least 2")
+    world, config = world_of(source), config_of(source)
+    evaluate = evaluation if evaluation is not None else config.evaluation
+    walls = config.walls_count if walls_count is None else walls_count
+    step = max(world.width, world.height) / (points - 1)
+    x = np.linspace(0, world.width, max(2, round(world.width / step) + 1))
+    y = np.linspace(0, world.height, max(2, round(world.height / step) + 1))
+    xs, ys = np.meshgrid(x, y)
+    goal = np.hypot(xs - world.target[0], ys - world.target[1])
+    sef = np.asarray(evaluate(goal, world.clearance(xs, ys, walls_count=walls)))
+    if floor is None:
+        term = np.asarray(evaluate(goal, np.full_like(goal, np.inf)))
+        floor = float(term.min() - 0.5 * (term.max() - term.min()))
+        floor = max(floor, float(sef.min()))
+    return SefField(x, y, sef, floor)
+
+
+class PreferenceField(NamedTuple):
+    """What a learner prefers, cell by cell; arrays of one value a cell experienced."""
+
+    x: npt.NDArray[np.float64]
+    """Centre of the cell [m]."""
+    y: npt.NDArray[np.float64]
+    u: npt.NDArray[np.float64]
+    """Mean direction of the preferred motions; its length in [0, 1] is their concentration."""
+    v: npt.NDArray[np.float64]
+    times: npt.NDArray[np.int64]
+    """How often the preferred motions were learned; 0 where no mapping is effective."""
+
+
+def preference_field(
+    world: World | Record,
+    learner: Learner,
+    *,
+    grid: SituationGrid | None = None,
+    config: TrialConfig | None = None,
+) -> PreferenceField:
+    """Where a learner prefers to go, cell by cell, as ``plot_preferences`` draws it.
+
+    In each situation experienced the effective motion of the highest orientation (the first of
+    equals) gives the direction heading + steering angle. A cell's arrow is the mean of these unit
+    vectors over its headings, each weighted by how often that motion was learned: of length 1 where
+    all agree, short where the headings lead different ways.
+    """
+    config = config_of(world, config)
+    place = world_of(world)
+    if grid is None:
+        columns, rows = (
+            max(1, math.ceil(side / config.cell_size - 1e-9))
+            for side in (place.width, place.height)
+        )
+        grid = SituationGrid(
+            max(place.width, columns * config.cell_size),
+            max(place.height, rows * config.cell_size),
+            columns,
+            rows,
+            config.heading_bins,
+        )
+    angles = config.robot.steering_angles
+    cells: dict[tuple[float, float], list[float]] = {}
+    for situation in learner.situations():
+        if situation >= grid.count:
+            raise InvalidValue("situation", situation, f"of the grid: below {grid.count}")
+        x, y, heading = grid.centre(situation)
+        cell = cells.setdefault((x, y), [0.0, 0.0, 0])
+        memory = learner.situation(situation)
+        if not memory.effective:
+            continue
+        best = int(np.argmax(memory.orientation))
+        motion, times = memory.effective[best], memory.times_learned[best]
+        if motion >= len(angles):
+            raise InvalidValue("motion", motion, f"one of the robot's {len(angles)}")
+        direction = math.radians(heading + angles[motion])
+        cell[0] += times * math.cos(direction)
+        cell[1] += times * math.sin(direction)
+        cell[2] += times
+    sums = np.array([[*at, *cell] for at, cell in cells.items()], dtype=float).reshape(-1, 5)
+    total = np.maximum(sums[:, 4], 1.0)
+    return PreferenceField(
+        sums[:, 0],
+        sums[:, 1],
+        sums[:, 2] / total,
+        sums[:, 3] / total,
+        sums[:, 4].astype(np.int64),
+    )

@@ -1,0 +1,135 @@
+"""Paths: Figs. 6, 9, 10, 11 and 12."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.lines import Line2D
+
+from .._core import Kind
+from ..errors import InvalidValue
+from ..record import Record
+from .style import (
+    BLACK,
+    BLUE,
+    GREY,
+    INK,
+    ORANGE,
+    colorbar_beside,
+    dark_cividis,
+    legend_below,
+    styled,
+    thousands,
+)
+from .world import arena_axes, draw_arena, draw_obstacles, draw_robot, draw_target
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Told apart by width and marker, not by colour alone; drawn in this order.
+_KINDS: dict[Kind, tuple[str, dict[str, Any]]] = {
+    Kind.UNSTATED: ("no reason given", {"color": GREY, "linewidth": 0.8}),
+    Kind.EXPLORE: (
+        "explore",
+        {"color": ORANGE, "linewidth": 1.4, "marker": "o", "markersize": 2.2},
+    ),
+    Kind.EXHAUSTED: (
+        "exhausted",
+        {"color": BLUE, "linewidth": 0.5, "marker": "x", "markersize": 2.6},
+    ),
+    Kind.EXPLOIT: ("exploit", {"color": BLACK, "linewidth": 0.8}),
+}
+
+
+@styled
+def plot_trajectory(
+    record: Record,
+    *,
+    ax: Axes | None = None,
+    entry: int = 0,
+    by: str | None = "kind",
+    color: str = INK,
+    label: str | None = None,
+    world: bool = True,
+    legend: bool = True,
+    title: bool = True,
+) -> Axes:
+    """Draw the path of one round over its world: Figs. 6 and 9 to 12.
+
+    ``entry`` is the index in ``record.rounds``. ``by="kind"`` tells explored, exploited and
+    exhausted steps apart, each marker standing where the choice was made, with their numbers in the
+    legend; ``by="time"`` colours by step; ``None`` draws one line in ``color`` (``label`` for a
+    legend of your own). ``world=False`` adds the path to what is already drawn.
+    """
+    if by not in ("kind", "time", None):
+        raise InvalidValue("by", by, '"kind", "time" or None')
+    path = record.path(entry)
+    place = record.world
+    timed, kinded = by == "time", by == "kind"
+    ax = arena_axes(ax, place, bar=legend and timed, legend=legend and kinded, title=title)
+    if world:
+        draw_arena(ax, place)
+        draw_obstacles(ax, place)
+    handles: list[Any] = []
+    if by == "kind":
+        kinds = record.kind[record.steps_of(entry)]
+        for order, (kind, (name, how)) in enumerate(_KINDS.items()):
+            chosen = kinds == int(kind)
+            count = int(np.count_nonzero(chosen))
+            if count == 0:
+                continue
+            lines = np.full((count, 3, 2), np.nan)
+            lines[:, 0] = path[:-1][chosen, :2]
+            lines[:, 1] = path[1:][chosen, :2]
+            (line,) = ax.plot(
+                *lines.reshape(-1, 2).T,
+                markevery=3,
+                markeredgewidth=0.7 if how.get("marker") == "x" else 0.0,
+                solid_capstyle="round",
+                label=f"{name} ({thousands(count)})",
+                zorder=2.0 + 0.1 * order,
+                gid=f"path-{name}",
+                **how,
+            )
+            handles.append(_shown_larger(line))
+    elif by == "time":
+        segments = np.stack([path[:-1, :2], path[1:, :2]], axis=1)
+        lines_by_time = LineCollection(
+            list(segments), cmap=dark_cividis(), linewidths=1.0, capstyle="round", zorder=2.0
+        )
+        lines_by_time.set_array(np.arange(1, len(path)))
+        lines_by_time.set_gid("path")
+        ax.add_collection(lines_by_time, autolim=False)
+        if legend:
+            colorbar_beside(ax, lines_by_time, "step")
+    else:
+        ax.plot(
+            path[:, 0], path[:, 1], color=color, linewidth=0.9, label=label, zorder=2.0, gid="path"
+        )
+    if world:
+        draw_robot(ax, record.config.robot.radius, path[0], zorder=3.0)
+        draw_target(ax, place)
+    if legend and handles:
+        legend_below(ax, handles)
+    if title:
+        number, steps, arrived = record.rounds[entry]
+        ax.set_title(
+            f"round {number}: {thousands(steps)} steps" + ("" if arrived else ", not arrived")
+        )
+    return ax
+
+
+def _shown_larger(line: Line2D) -> Line2D:
+    """The same line for a legend, where a marker of 2 points is hard to see."""
+    return Line2D(
+        [0, 1],
+        [0, 0],
+        color=line.get_color(),
+        linewidth=line.get_linewidth(),
+        marker=line.get_marker(),
+        markersize=1.6 * line.get_markersize(),
+        markeredgewidth=line.get_markeredgewidth(),
+        label=str(line.get_label()),
+    )

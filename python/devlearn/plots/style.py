@@ -1,0 +1,112 @@
+"""The look of all plots: colours, settings, axes, legends."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.colors import ListedColormap
+from matplotlib.ticker import MaxNLocator
+from matplotlib.transforms import ScaledTranslation
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+
+# Okabe and Ito (2008): told apart by the colour-blind.
+BLACK = "#000000"
+ORANGE = "#E69F00"
+SKY = "#56B4E9"
+GREEN = "#009E73"
+BLUE = "#0072B2"
+VERMILLION = "#D55E00"
+PURPLE = "#CC79A7"
+GREY = "#7F7F7F"
+INK = "#222222"
+OBSTACLE = "#A9CBE6"  # the paper's blue, light enough to draw over
+
+COLUMN = 3.5  # a journal column [inches]
+STYLE: Any = {  # matplotlib's own type lists every setting by name
+    "font.size": 8,
+    "axes.titlesize": 8,
+    "axes.labelsize": 8,
+    "xtick.labelsize": 7,
+    "ytick.labelsize": 7,
+    "legend.fontsize": 7,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "lines.linewidth": 1.0,
+    "legend.frameon": False,
+    "figure.dpi": 200,
+    "savefig.dpi": 200,
+    "svg.fonttype": "none",
+}
+"""The rc settings under which everything here is drawn; for ``matplotlib.rc_context``."""
+
+_F = TypeVar("_F", bound=Callable[..., Any])
+
+
+def styled(plot: _F) -> _F:
+    """A plot drawn under ``STYLE``."""
+
+    @functools.wraps(plot)
+    def wrapper(*args: Any, **kwargs: Any) -> Any:
+        with mpl.rc_context(STYLE):
+            return plot(*args, **kwargs)
+
+    return cast(_F, wrapper)
+
+
+def axes_of_height(ax: Axes | None, height: float) -> Axes:
+    """The axes given, else new ones of a column's width and this height [inches]."""
+    if ax is not None:
+        return ax
+    import matplotlib.pyplot as plt
+
+    _, ax = plt.subplots(figsize=(COLUMN, height), layout="constrained")
+    return ax
+
+
+def legend_below(ax: Axes, handles: Sequence[Any], columns: int | None = None) -> None:
+    """Outside the data, under the label of the x axis."""
+    below = ax.transAxes + ScaledTranslation(0, -28 / 72, ax.figure.dpi_scale_trans)
+    ax.legend(
+        handles=list(handles),
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        bbox_transform=below,
+        ncol=columns or len(handles),
+        borderaxespad=0.0,
+        handletextpad=0.5,
+        columnspacing=1.0,
+        handlelength=2.2 if columns else 1.5,
+    )
+
+
+def colorbar_beside(ax: Axes, colours: Any, label: str, extend: str = "neither") -> None:
+    """Beside the axes and as high as they are."""
+    beside = ax.inset_axes((1.03, 0.0, 0.045, 1.0))
+    bar = ax.figure.colorbar(colours, cax=beside, label=label, extend=extend)
+    bar.outline.set_linewidth(0.4)
+
+
+def thousands(count: int) -> str:
+    """A number with its thousands apart."""
+    return f"{count:,}".replace(",", "\u2009")
+
+
+def whole_numbers(*axes: Axis) -> None:
+    """Ticks at whole numbers only."""
+    for axis in axes:
+        axis.set_major_locator(MaxNLocator(nbins=7, integer=True, min_n_ticks=2))
+
+
+def dark_cividis() -> ListedColormap:
+    """Cividis from pale to dark, without the yellow that white paper swallows."""
+    return ListedColormap(mpl.colormaps["cividis"](np.linspace(0.82, 0.0, 256)))

@@ -1,0 +1,197 @@
+"""Worlds: Fig. 2, and what is drawn over them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib import patches
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
+
+from .._core import Circle, Rectangle, Robot, RobotDef, World
+from ..analysis.fields import config_of, world_of
+from ..record import Record
+from .style import BLUE, COLUMN, GREEN, INK, OBSTACLE, VERMILLION, legend_below, styled
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def arena_axes(
+    ax: Axes | None, world: World, *, bar: bool = False, legend: bool = False, title: bool = False
+) -> Axes:
+    """Axes for a map of the world, in a figure as high as that needs."""
+    if ax is not None:
+        return ax
+    import matplotlib.pyplot as plt
+
+    # Around the axes, in inches. Automatic layouts do not foresee what equal aspects leave over.
+    left, right, bottom, top = 0.4, 0.72 if bar else 0.1, 0.4, 0.08
+    bottom += 0.22 * legend
+    top += 0.2 * title
+    width = COLUMN - left - right
+    height = width * world.height / world.width
+    total = bottom + height + top
+    figure = plt.figure(figsize=(COLUMN, total))
+    return figure.add_axes((left / COLUMN, bottom / total, width / COLUMN, height / total))
+
+
+def draw_obstacles(ax: Axes, world: World, **how: Any) -> None:
+    """The obstacles as patches, drawn as ``how`` says."""
+    how = {"facecolor": OBSTACLE, "edgecolor": BLUE, "linewidth": 0.7, "zorder": 1.0, **how}
+    for i, obstacle in enumerate(world.obstacles):
+        patch: patches.Patch
+        if isinstance(obstacle, Circle):
+            patch = patches.Circle((obstacle.center[0], obstacle.center[1]), obstacle.radius, **how)
+        elif isinstance(obstacle, Rectangle):
+            patch = patches.Polygon(_corners(obstacle), closed=True, **how)
+        else:
+            patch = patches.Polygon(np.array(obstacle.corners, dtype=float), closed=True, **how)
+        patch.set_gid(f"obstacle-{i}")
+        ax.add_patch(patch)
+        # What lies beyond the walls, where a world lets an obstacle reach into them, is not shown.
+        patch.set_clip_path(
+            patches.Rectangle((0, 0), world.width, world.height, transform=ax.transData)
+        )
+
+
+def _corners(rectangle: Rectangle) -> npt.NDArray[np.float64]:
+    half = np.array(rectangle.size, dtype=float) / 2
+    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half
+    angle = math.radians(rectangle.angle)
+    turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+    return cast("npt.NDArray[np.float64]", corners @ turn + np.array(rectangle.center))
+
+
+def draw_arena(ax: Axes, world: World) -> None:
+    """The walls, and axes in metres that show one metre the same both ways."""
+    wall = patches.Rectangle(
+        (0, 0), world.width, world.height, fill=False, edgecolor=INK, linewidth=1.6, zorder=4.0
+    )
+    wall.set_gid("walls")
+    ax.add_patch(wall)
+    margin = 0.02 * max(world.width, world.height)
+    ax.set_xlim(-margin, world.width + margin)
+    ax.set_ylim(-margin, world.height + margin)
+    ax.set_aspect("equal")
+    ax.set_xlabel("x [m]")
+    ax.set_ylabel("y [m]")
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10], integer=True))
+    for spine in ax.spines.values():
+        spine.set_visible(False)
+
+
+def draw_target(ax: Axes, world: World) -> Line2D:
+    """The target as a star; for legends."""
+    (star,) = ax.plot(
+        *world.target,
+        marker="*",
+        markersize=10,
+        markerfacecolor=VERMILLION,
+        markeredgecolor="white",
+        markeredgewidth=0.6,
+        linestyle="none",
+        label="target",
+        zorder=6.0,
+        gid="target",
+    )
+    return star
+
+
+def draw_robot(ax: Axes, radius: float, pose: Sequence[float], zorder: float = 5.0) -> None:
+    """The body with its heading at a pose (x, y [m], heading [degrees])."""
+    x, y, heading = pose
+    body = patches.Circle(
+        (x, y), radius, facecolor=GREEN, edgecolor=INK, linewidth=0.7, zorder=zorder
+    )
+    body.set_gid("robot")
+    ax.add_patch(body)
+    angle = math.radians(heading)
+    ax.plot(
+        [x, x + radius * math.cos(angle)],
+        [y, y + radius * math.sin(angle)],
+        color="white",
+        linewidth=1.2,
+        solid_capstyle="butt",
+        zorder=zorder + 0.1,
+        gid="heading",
+    )
+
+
+def _robot_handle(label: str = "robot") -> Line2D:
+    return Line2D(
+        [],
+        [],
+        marker="o",
+        markersize=6,
+        markerfacecolor=GREEN,
+        markeredgecolor=INK,
+        markeredgewidth=0.7,
+        linestyle="none",
+        label=label,
+    )
+
+
+@styled
+def plot_world(
+    world: World | Record,
+    *,
+    ax: Axes | None = None,
+    robot: RobotDef | None = None,
+    pose: Sequence[float] | None = None,
+    sonar: bool = True,
+    legend: bool = True,
+) -> Axes:
+    """Draw a world with the robot, its sonars and the target: Fig. 2.
+
+    ``robot`` (a record's own, else the paper's) stands at ``pose`` (x, y [m], heading [degrees];
+    the world's start). With ``sonar`` each ray runs from the body's rim to what it meets, a dot
+    marking the echo; a ray that meets nothing ends, dashed, at the sonar's range.
+    """
+    body = robot if robot is not None else config_of(world).robot
+    place = world_of(world)
+    stand = tuple(place.start) if pose is None else tuple(pose)
+    ax = arena_axes(ax, place, legend=legend)
+    draw_arena(ax, place)
+    draw_obstacles(ax, place)
+    handles = [_robot_handle()]
+    if sonar:
+        echoes = Robot(place, body).sonar(stand)
+        for i, (angle, echo) in enumerate(zip(body.sonar_angles(), echoes)):
+            met = echo < body.sonar_range
+            direction = math.radians(stand[2] + angle)
+            reach = np.array([body.radius, body.radius + echo])
+            ax.plot(
+                stand[0] + reach * math.cos(direction),
+                stand[1] + reach * math.sin(direction),
+                color=INK,
+                linewidth=0.7,
+                linestyle="-" if met else (0, (4, 2)),
+                marker="o" if met else None,
+                markersize=2.6,
+                markevery=[1],
+                zorder=3.0,
+                clip_on=False,
+                gid=f"sonar-{i}",
+            )
+        handles.append(
+            Line2D(
+                [], [], color=INK, linewidth=0.7, marker="o", markersize=2.6, label="sonar, echo"
+            )
+        )
+    draw_robot(ax, body.radius, stand)
+    handles.append(draw_target(ax, place))
+    if place.obstacles:
+        handles.append(_obstacle_handle())
+    if legend:
+        legend_below(ax, handles)
+    return ax
+
+
+def _obstacle_handle() -> Any:
+    return patches.Patch(facecolor=OBSTACLE, edgecolor=BLUE, linewidth=0.7, label="obstacle")
