@@ -26,13 +26,13 @@ const auto* const clearance = add("clearance/geometric", [](benchmark::State& st
 
 const auto* const free_step = add("clearance/free_step", [](benchmark::State& state) {
   over_steps(state, paper(), [](const Robot& robot, const Step& step) {
-    return robot.free_step(step.pose, step.motion);
+    return robot.step(step.pose, step.motion);
   });
 });
 
 const auto* const among_many = add("clearance/free_step_8000", [](benchmark::State& state) {
   over_steps(state, shattered(), [](const Robot& robot, const Step& step) {
-    return robot.free_step(step.pose, step.motion);
+    return robot.step(step.pose, step.motion);
   });
 });
 

@@ -18,7 +18,7 @@ void over_steps(benchmark::State& state, const std::vector<Step>& steps, F f) {
   per_step(state, static_cast<double>(steps.size()));
 }
 
-Robot::Step moved(const Robot& robot, const Step& step) {
+Robot::Move moved(const Robot& robot, const Step& step) {
   return robot.step(step.pose, step.motion);
 }
 

@@ -14,11 +14,6 @@ struct SonarCountTag {
   static constexpr const char* quantity = "sonar_count";
   static constexpr const char* allowed = "a whole number in [0, 720]";
 };
-struct SubstepsTag {
-  using type = int;
-  static constexpr const char* quantity = "substeps";
-  static constexpr const char* allowed = "a whole number in [1, 1000]";
-};
 
 }  // namespace
 
@@ -81,7 +76,7 @@ void bind_robot(py::module_& m) {
       .def(
           "step",
           [](const Robot& self, const Pose& pose, Whole<MotionTag> motion) {
-            const Robot::Step step = [&] {
+            const Robot::Move step = [&] {
               const Turn turn;
               return self.step(pose, motion.value);
             }();
@@ -90,18 +85,6 @@ void bind_robot(py::module_& m) {
           py::arg("pose"), py::arg("motion"),
           "(next pose, collided): Eq. 1 exactly where the way is free, Box2D where there is "
           "something to touch. Raises InvalidValue.")
-      .def(
-          "step_simulated",
-          [](const Robot& self, const Pose& pose, Whole<MotionTag> motion,
-             Whole<SubstepsTag> substeps) {
-            const Robot::Step step = [&] {
-              const Turn turn;
-              return self.step_simulated(pose, motion.value, substeps.value);
-            }();
-            return std::make_pair(step.pose, step.collided);
-          },
-          py::arg("pose"), py::arg("motion"), py::arg("substeps") = 15,
-          "The same with Box2D all the way, for comparison. Raises InvalidValue.")
       .def(
           "sonar",
           [](const Robot& self, const Pose& pose) {

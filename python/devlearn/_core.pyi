@@ -866,15 +866,6 @@ class Robot:
         """
         (next pose, collided): Eq. 1 exactly where the way is free, Box2D where there is something to touch. Raises InvalidValue.
         """
-    def step_simulated(
-        self,
-        pose: collections.abc.Sequence[float],
-        motion: typing.SupportsIndex,
-        substeps: typing.SupportsIndex = 15,
-    ) -> tuple[devlearn._types.Pose, bool]:
-        """
-        The same with Box2D all the way, for comparison. Raises InvalidValue.
-        """
     def turn_speeds(self, motion: typing.SupportsIndex) -> tuple[float, float]:
         """
         (left, right) wheel speeds of the turn, held for one sample time, Eq. 2 [m/s].

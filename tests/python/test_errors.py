@@ -375,7 +375,6 @@ CALLS = [
     (RobotDef.from_dict, ({},)),
     (Robot, (World(), RobotDef())),
     (lambda *a: Robot(World()).step(*a), ((1, 1, 0), 2)),
-    (lambda *a: Robot(World()).step_simulated(*a), ((1, 1, 0), 2, 15)),
     (lambda *a: Robot(World()).sonar(*a), ((1, 1, 0),)),
     (lambda *a: Robot(World()).turn_speeds(*a), (2,)),
     (

@@ -65,15 +65,6 @@ def test_a_free_step_is_eq_1(pose, motion):
     assert abs(after.y - pose[1] - 0.05 * np.sin(np.radians(heading))) < 1e-12
 
 
-@given(poses, st.integers(0, 4))
-def test_box2d_all_the_way_comes_to_the_same_where_the_way_is_free(pose, motion):
-    exact, _ = EMPTY.step(pose, motion)
-    simulated, collided = EMPTY.step_simulated(pose, motion)
-    assert not collided
-    assert np.hypot(simulated.x - exact.x, simulated.y - exact.y) < 1e-5
-    assert simulated.heading == exact.heading
-
-
 def test_a_wall_stops_the_body_and_is_a_collision():
     pose, collided = EMPTY.step((0.11, 2, 180), 2)
     assert collided
@@ -149,20 +140,13 @@ def test_what_is_no_pose_is_a_type_error(pose):
 )
 def test_a_pose_that_cannot_be_is_refused_by_name(pose, quantity):
     refused(lambda: EMPTY.step(pose, 0), quantity)
-    refused(lambda: EMPTY.step_simulated(pose, 0), quantity)
     refused(lambda: EMPTY.sonar(pose), quantity)
 
 
 @pytest.mark.parametrize("motion", [-1, 5, 2**31, -(2**31) - 1, 2**64, 10**30])
 def test_a_motion_outside_m_is_refused_by_name(motion):
-    for call in (EMPTY.step, EMPTY.step_simulated):
-        refused(lambda call=call: call((1, 2, 0), motion), "motion", str(motion))
+    refused(lambda: EMPTY.step((1, 2, 0), motion), "motion", str(motion))
     refused(lambda: EMPTY.turn_speeds(motion), "motion", str(motion))
-
-
-@pytest.mark.parametrize("substeps", [0, -1, 1001, 2**40])
-def test_a_number_of_substeps_out_of_range_is_refused(substeps):
-    refused(lambda: EMPTY.step_simulated((1, 2, 0), 0, substeps), "substeps", str(substeps))
 
 
 def test_the_shortest_path_is_a_way_of_the_robots_own(paper):

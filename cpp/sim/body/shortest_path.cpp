@@ -7,6 +7,7 @@
 #include <string>
 #include <unordered_set>
 
+#include "body/kinematics.hpp"
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "world/geometry.hpp"
@@ -51,7 +52,7 @@ std::vector<Pose> shortest_path(const Robot& robot, const Pose& start, double go
   require_above("goal_radius", goal_radius, 0.0, 100.0, "m");
   robot.require_place(start, "start");
   const Point target = robot.world().def().target;
-  const double length = robot.def().speed * robot.def().sample_time;
+  const double length = step_length(robot.def());
   const auto motions = static_cast<int>(robot.def().steering_angles.size());
   const Cells cells(robot.world(), length / 4.0);
 
@@ -83,7 +84,7 @@ std::vector<Pose> shortest_path(const Robot& robot, const Pose& start, double go
       }
       if (!closed.insert(cells.of(node.pose)).second) continue;
       for (int motion = 0; motion < motions; ++motion) {
-        const std::optional<Pose> next = robot.free_step(node.pose, motion);
+        const std::optional<Pose> next = free_step(robot.world(), robot.def(), node.pose, motion);
         if (!next || closed.count(cells.of(*next)) > 0) continue;
         const std::int32_t steps = node.steps + 1;
         const auto bound =

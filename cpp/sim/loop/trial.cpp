@@ -114,7 +114,7 @@ Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
     }
   }
   robot_.require_place(pose_, "start");
-  state_ = sense(pose_, world.clearance({pose_.x, pose_.y}));
+  state_ = sense(pose_);
 }
 
 StepRecord Trial::step() {
@@ -134,10 +134,10 @@ StepRecord Trial::tick() {
   }
 
   // choice -> motion (Eq. 1)
-  const Robot::Step moved = robot_.step(pose_, choice.motion);
+  const Robot::Move moved = robot_.step(pose_, choice.motion);
 
   // motion -> next situation and its SEF (Eq. 6)
-  const State after = sense(moved.pose, moved.clearance);
+  const State after = sense(moved.pose);
 
   // evaluation (Eq. 8)
   const double smf = after.sef - before.sef;
@@ -171,27 +171,25 @@ StepRecord Trial::tick() {
   return step;
 }
 
-// `to_obstacles` is the distance from the robot's centre to the nearest of them.
-Trial::State Trial::sense(const Pose& pose, double to_obstacles) const {
+Trial::State Trial::sense(const Pose& pose) const {
   State state;
   state.situation = grid_.situation(pose.x, pose.y, pose.heading);
   const double dx = pose.x - world().def().target.x;
   const double dy = pose.y - world().def().target.y;
   state.goal_distance = std::sqrt(dx * dx + dy * dy);
-  state.clearance = clearance(pose, to_obstacles);
+  state.clearance = clearance(pose);
   state.sef = config_.evaluation(state.goal_distance, state.clearance);
   state.arrived = state.goal_distance <= config_.goal_radius;
   return state;
 }
 
 // d_o of Eq. 6.
-double Trial::clearance(const Pose& pose, double to_obstacles) const {
+double Trial::clearance(const Pose& pose) const {
   if (config_.clearance_source == ClearanceSource::kSonar) {
     const std::vector<double> echoes = robot_.sonar(pose);
     return *std::min_element(echoes.begin(), echoes.end()) + config_.robot.radius;
   }
-  if (!config_.walls_count) return to_obstacles;
-  return std::min(to_obstacles, world().wall_distance({pose.x, pose.y}));
+  return world().clearance({pose.x, pose.y}, config_.walls_count);
 }
 
 void Trial::begin_round() { place(world().def().start); }
@@ -211,7 +209,7 @@ void Trial::resume(const Pose& pose, std::int32_t round) {
 void Trial::put(const Pose& pose) {
   require_count("round", std::int64_t{round_} + 1, 1, kLastRound + 1);
   robot_.require_place(pose);
-  const State state = sense(pose, world().clearance({pose.x, pose.y}));
+  const State state = sense(pose);
   pose_ = pose;
   state_ = state;
   ++round_;

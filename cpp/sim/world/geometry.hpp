@@ -8,6 +8,12 @@
 // The plane geometry that world and robot share.
 namespace devlearn {
 
+/// One straight piece of an obstacle's outline or a wall, solid on its left: a-b, and the corners
+/// next to it.
+struct Edge {
+  Point before, a, b, after;
+};
+
 inline Point operator-(Point a, Point b) noexcept { return {a.x - b.x, a.y - b.y}; }
 inline double dot(Point u, Point v) noexcept { return u.x * v.x + u.y * v.y; }
 inline double cross(Point u, Point v) noexcept { return u.x * v.y - u.y * v.x; }
@@ -38,7 +44,7 @@ inline double outside(const Circle& circle, double squared) noexcept {
 inline double swept_distance(const Circle& circle, Point p, Point q) noexcept {
   return outside(circle, squared_distance(circle.center, p, q));
 }
-inline double swept_distance(const World::Edge& edge, Point p, Point q) noexcept {
+inline double swept_distance(const Edge& edge, Point p, Point q) noexcept {
   const Point a = edge.a, b = edge.b;
   const bool parted = (cross(b - a, p - a) > 0.0) == (cross(b - a, q - a) > 0.0) ||
                       (cross(q - p, a - p) > 0.0) == (cross(q - p, b - p) > 0.0);

@@ -27,19 +27,19 @@ bool crosses_ray(Point p, Point a, Point b) {
   return (a.y > p.y) != (b.y > p.y) && (cross(b - a, p - a) > 0.0) == (b.y > a.y);
 }
 
-Box bound_of(const World::Edge& edge) { return Box{edge.a, edge.a}.joined({edge.b, edge.b}); }
+Box bound_of(const Edge& edge) { return Box{edge.a, edge.a}.joined({edge.b, edge.b}); }
 Box bound_of(const Circle& circle) {
   return Box{circle.center, circle.center}.grown_by(circle.radius);
 }
 
-double distance_to(const World::Edge& edge, Point p) {
+double distance_to(const Edge& edge, Point p) {
   return std::sqrt(squared_distance(p, edge.a, edge.b));
 }
 double distance_to(const Circle& circle, Point p) {
   return outside(circle, squared_length(p - circle.center));
 }
 
-bool reaches(const World::Edge& edge, Point p, double reach) {
+bool reaches(const Edge& edge, Point p, double reach) {
   return squared_distance(p, edge.a, edge.b) <= reach * reach;
 }
 bool reaches(const Circle& circle, Point p, double reach) {
@@ -50,7 +50,7 @@ bool reaches(const Circle& circle, Point p, double reach) {
 
 Surfaces::Surfaces(double width, double height, std::vector<std::vector<Point>> outlines,
                    std::vector<Circle> circles)
-    : circles_(std::move(circles)) {
+    : width_(width), height_(height), circles_(std::move(circles)) {
   // Clockwise, since walls are solid on the outside.
   add_edges({{0.0, 0.0}, {0.0, height}, {width, height}, {width, 0.0}});
   for (std::vector<Point>& corners : outlines) {
@@ -187,7 +187,7 @@ double Surfaces::distance(Point p) const noexcept {
   if (cell.kind == Cell::Kind::kSearched) return searched_distance(p);
   double squared = kInfinite;
   for (std::uint32_t i = cell.first; i < cell.circles; ++i) {
-    const World::Edge& edge = edges_[held_[i]];
+    const Edge& edge = edges_[held_[i]];
     squared = std::min(squared, squared_distance(p, edge.a, edge.b));
   }
   double least = std::sqrt(squared);
@@ -231,7 +231,12 @@ bool Surfaces::Outline::contains(Point p) const noexcept {
   return inside;
 }
 
+double Surfaces::wall_distance(Point p) const noexcept {
+  return std::max(0.0, std::min({p.x, width_ - p.x, p.y, height_ - p.y}));
+}
+
 bool Surfaces::keep_clear_of(Point p, Point q, double room) const noexcept {
+  if (std::min(wall_distance(p), wall_distance(q)) <= room) return false;
   if (inside_outline(leaf(p), p)) return false;
   bool clear = true;
   double limit = room * room;
@@ -245,7 +250,7 @@ bool Surfaces::keep_clear_of(Point p, Point q, double room) const noexcept {
   return clear;
 }
 
-World::Surroundings Surfaces::around(Point p, double reach) const {
+Surroundings Surfaces::around(Point p, double reach) const {
   std::vector<std::uint32_t> found;
   found.reserve(32);
   const auto reached = [&](std::uint32_t surface) {
@@ -260,7 +265,7 @@ World::Surroundings Surfaces::around(Point p, double reach) const {
   });
   std::sort(found.begin(), found.end());
 
-  World::Surroundings near;
+  Surroundings near;
   const auto circles = std::lower_bound(found.begin(), found.end(), edges_.size());
   near.edges.reserve(static_cast<std::size_t>(circles - found.begin()));
   near.circles.reserve(static_cast<std::size_t>(found.end() - circles));

@@ -5,8 +5,15 @@
 
 #include "devlearn/world.hpp"
 #include "world/box_tree.hpp"
+#include "world/geometry.hpp"
 
 namespace devlearn {
+
+/// What is near a point, in the order of Surfaces::edges and Surfaces::circles.
+struct Surroundings {
+  std::vector<Edge> edges;
+  std::vector<Circle> circles;
+};
 
 /// What a world's obstacles are bounded by, and how to find what is near: a hierarchy of boxes and,
 /// for what is asked at every step, a tree of square cells that leads from a point straight to the
@@ -25,13 +32,16 @@ class Surfaces {
   /// Least distance from p to an obstacle, 0 inside one, infinite where there is none.
   double distance(Point p) const noexcept;
 
-  /// Whether all obstacles keep more than `room` from the segment p-q.
+  /// Least distance from p to the walls, 0 outside.
+  double wall_distance(Point p) const noexcept;
+
+  /// Whether obstacles and walls keep more than `room` > 0 from the segment p-q.
   bool keep_clear_of(Point p, Point q, double room) const noexcept;
 
-  /// Edges and circles no further than `reach` from p, each in the order of edges() and circles().
-  World::Surroundings around(Point p, double reach) const;
+  /// Edges and circles no further than `reach` from p, and no others.
+  Surroundings around(Point p, double reach) const;
 
-  const std::vector<World::Edge>& edges() const noexcept { return edges_; }  ///< walls first
+  const std::vector<Edge>& edges() const noexcept { return edges_; }  ///< walls first
   const std::vector<Circle>& circles() const noexcept { return circles_; }
 
  private:
@@ -81,7 +91,8 @@ class Surfaces {
   const Cell& leaf(Point p) const noexcept;
   bool inside_outline(const Cell& leaf, Point p) const noexcept;
 
-  std::vector<World::Edge> edges_;
+  double width_, height_;
+  std::vector<Edge> edges_;
   std::vector<Circle> circles_;
   std::vector<Outline> outlines_;
 

@@ -196,36 +196,11 @@ World World::with_start(const Pose& start) const {
   return world;
 }
 
-double World::wall_distance(Point p) const noexcept {
-  return std::max(0.0, std::min({p.x, def_->width - p.x, p.y, def_->height - p.y}));
-}
+double World::wall_distance(Point p) const noexcept { return surfaces_->wall_distance(p); }
 
 double World::clearance(Point point, bool walls_count) const noexcept {
   const double obstacles = surfaces_->distance(point);
   return walls_count ? std::min(obstacles, wall_distance(point)) : obstacles;
 }
-
-double World::swept_clearance(Point a, Point b) const noexcept {
-  if (clearance(a) == 0.0) return 0.0;
-  double least = std::min(wall_distance(a), wall_distance(b));
-  for (std::size_t i = 4; i < edges().size(); ++i) {
-    least = std::min(least, swept_distance(edges()[i], a, b));
-  }
-  for (const Circle& circle : circles()) least = std::min(least, swept_distance(circle, a, b));
-  return least;
-}
-
-bool World::keeps_clear(Point a, Point b, double room) const noexcept {
-  return std::min(wall_distance(a), wall_distance(b)) > room &&
-         surfaces_->keep_clear_of(a, b, room);
-}
-
-World::Surroundings World::around(Point point, double reach) const {
-  return surfaces_->around(point, reach);
-}
-
-const std::vector<World::Edge>& World::edges() const noexcept { return surfaces_->edges(); }
-
-const std::vector<Circle>& World::circles() const noexcept { return surfaces_->circles(); }
 
 }  // namespace devlearn

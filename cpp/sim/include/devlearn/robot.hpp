@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "devlearn/situation.hpp"
@@ -9,7 +8,7 @@
 
 namespace devlearn {
 
-struct Drive;
+class Sonars;
 
 /// The robot of Fig. 1: a circle on two wheels that turns, then drives forward.
 struct RobotDef {
@@ -53,24 +52,16 @@ class Robot {
   ///@}
 
   /// Where a step led.
-  struct Step {
-    Pose pose;               ///< after it
-    bool collided = false;   ///< the body touched something
-    double clearance = 0.0;  ///< d_o after it: world().clearance at the pose, without walls [m]
+  struct Move {
+    Pose pose;              ///< after it
+    bool collided = false;  ///< whether the body touched something
   };
 
   /// Eq. 1: turns by steering_angles[motion], then drives for one sample time. Where the swept
   /// body keeps clear of everything, that is Eq. 1 exactly; otherwise Box2D resolves the drive
   /// from this pose. The heading always ends as commanded. Throws InvalidValue for a motion
   /// outside M or a pose that require_place refuses.
-  Step step(const Pose& pose, int motion) const;
-
-  /// The next pose where that is Eq. 1 exactly; nothing where Box2D has to say. Throws InvalidValue
-  /// for a motion outside M.
-  std::optional<Pose> free_step(const Pose& pose, int motion) const;
-
-  /// The same step with Box2D all the way, in `substeps` parts (for comparisons).
-  Step step_simulated(const Pose& pose, int motion, int substeps = 15) const;
+  Move step(const Pose& pose, int motion) const;
 
   /// Echo distances from the body's rim [m], one for each sonar from right to left, by raycast;
   /// sonar_range where nothing is heard, 0 where something touches the rim. `echoes` has room for
@@ -92,20 +83,9 @@ class Robot {
   const World& world() const noexcept { return *world_; }  ///< as given
 
  private:
-  struct Physics;
-
-  const Physics& physics() const;
-  double steering_angle(int motion) const;
-  double heading_after(const Pose& pose, int motion) const;
-  double step_length() const noexcept;
-  Step straight_drive(const Pose& pose, double heading) const noexcept;
-  Step ended(const Pose& pose, double heading, const Drive& drive) const noexcept;
-  bool keeps_clear(const Pose& pose, const Step& straight) const noexcept;
-  bool fits(const Step& step, double depth) const noexcept;
-
   std::shared_ptr<const World> world_;
   RobotDef def_;
-  mutable std::unique_ptr<Physics> physics_;  // made when the sonars are first asked
+  mutable std::unique_ptr<Sonars> sonars_;  // made when first asked
 };
 
 }  // namespace devlearn

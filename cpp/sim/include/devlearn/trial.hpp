@@ -130,8 +130,8 @@ class Trial {
   };
   StepRecord tick();
   void put(const Pose& pose);
-  State sense(const Pose& pose, double to_obstacles) const;
-  double clearance(const Pose& pose, double to_obstacles) const;
+  State sense(const Pose& pose) const;
+  double clearance(const Pose& pose) const;
   void require_like(const Record& record, const RunOptions& options) const;
   void go_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
   bool run_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);

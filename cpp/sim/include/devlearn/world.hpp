@@ -87,30 +87,8 @@ class World {
   /// Least distance from a point to the arena's walls, 0 outside [m].
   double wall_distance(Point point) const noexcept;
 
-  /// Least distance from the segment a-b, as a moving point sweeps it, to obstacles and walls [m].
-  /// Looks at every one of them.
-  double swept_clearance(Point a, Point b) const noexcept;
-
-  /// Whether swept_clearance(a, b) > room > 0; looks at what is near only.
-  bool keeps_clear(Point a, Point b, double room) const noexcept;
-
-  /// One straight piece of an obstacle's outline or a wall, solid on its left.
-  struct Edge {
-    ///@{
-    /// The edge a-b and the corners next to it.
-    Point before, a, b, after;
-    ///@}
-  };
-  const std::vector<Edge>& edges() const noexcept;      ///< walls first
-  const std::vector<Circle>& circles() const noexcept;  ///< of all obstacles that are circles
-
-  /// What is near a point.
-  struct Surroundings {
-    std::vector<Edge> edges;      ///< in the order of World::edges
-    std::vector<Circle> circles;  ///< in the order of World::circles
-  };
-  /// The edges and circles no further than `reach` [m] from a point; looks at what is near only.
-  Surroundings around(Point point, double reach) const;
+  /// What a body in it can touch: an internal, which may change with any version.
+  const Surfaces& surfaces() const noexcept { return *surfaces_; }
 
  private:
   // Copies share them.

@@ -16,8 +16,8 @@ using namespace devlearn;
 
 namespace {
 
-bool same(const Robot::Step& a, const Robot::Step& b) {
-  return a.pose == b.pose && a.collided == b.collided && a.clearance == b.clearance;
+bool same(const Robot::Move& a, const Robot::Move& b) {
+  return a.pose == b.pose && a.collided == b.collided;
 }
 
 }  // namespace
@@ -34,11 +34,10 @@ TEST_CASE("Clearances and surroundings are those of a look at everything, to the
       const Point q{p.x + between(random, -0.3, 0.3), p.y + between(random, -0.3, 0.3)};
       const double room = between(random, 0.01, 0.5), clearance = world.clearance(p);
       differ += clearance != plain::clearance(world, p);
-      differ += world.swept_clearance(p, q) != plain::swept_clearance(world, p, q);
-      const bool clear = world.keeps_clear(p, q, room);
+      const bool clear = world.surfaces().keep_clear_of(p, q, room);
       differ += clear != (plain::swept_clearance(world, p, q) > room);
-      const World::Surroundings near = world.around(p, room);
-      const World::Surroundings expected = plain::around(world, p, room);
+      const Surroundings near = world.surfaces().around(p, room);
+      const Surroundings expected = plain::around(world, p, room);
       differ += !std::equal(near.edges.begin(), near.edges.end(), expected.edges.begin(),
                             expected.edges.end(),
                             [](auto& a, auto& b) { return a.a == b.a && a.b == b.b; });
@@ -75,7 +74,7 @@ Compared compare_steps(Random& random, long steps, int each, const Worlds& world
     Pose pose = *start;
     for (int i = 0; i < each; ++i, ++compared.steps) {
       const int motion = static_cast<int>(random.index(5));
-      const Robot::Step step = robot.step(pose, motion);
+      const Robot::Move step = robot.step(pose, motion);
       compared.different += !same(step, plain::step(robot, pose, motion));
       compared.contacts += step.collided;
       pose = step.pose;

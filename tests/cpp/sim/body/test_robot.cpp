@@ -10,6 +10,7 @@
 #include "devlearn/math.hpp"
 #include "devlearn/random.hpp"
 #include "devlearn/robot.hpp"
+#include "sim/body/plain.hpp"
 #include "sim/world/random_worlds.hpp"
 
 using namespace devlearn;
@@ -177,12 +178,11 @@ TEST_CASE("A pose where the body does not fit is refused by every call that take
   std::vector<double> echoes(5);
   const auto refused = [&](const Pose& pose, const std::string& quantity) {
     CAPTURE(quantity);
-    for (int call = 0; call < 4; ++call) {
+    for (int call = 0; call < 3; ++call) {
       try {
         if (call == 0) robot.require_place(pose);
         if (call == 1) robot.step(pose, 2);
-        if (call == 2) robot.step_simulated(pose, 2);
-        if (call == 3) robot.sonar(pose, echoes.data());
+        if (call == 2) robot.sonar(pose, echoes.data());
         FAIL_CHECK("accepted");
       } catch (const InvalidValue& e) {
         CHECK(e.quantity() == quantity);
@@ -202,10 +202,6 @@ TEST_CASE("A pose where the body does not fit is refused by every call that take
   CHECK_NOTHROW(robot.require_place({1.0, 1.0, 1e308}));
   for (const int bad : {-1, 5}) {
     CHECK_THROWS_AS(robot.step({1, 1, 0}, bad), InvalidValue);
-    CHECK_THROWS_AS(robot.step_simulated({1, 1, 0}, bad), InvalidValue);
-  }
-  for (const int bad : {0, 1001}) {
-    CHECK_THROWS_AS(robot.step_simulated({1, 1, 0}, 2, bad), InvalidValue);
   }
 }
 
@@ -221,11 +217,11 @@ TEST_CASE("Free steps are Eq. 1 to 1e-12, and to 1e-5 m where Box2D takes them a
       const int motion = static_cast<int>(random.index(5));
       const Pose expected =
           moved(*pose, robot.def().steering_angles[static_cast<std::size_t>(motion)], 0.05);
-      const Robot::Step step = robot.step(*pose, motion);
+      const Robot::Move step = robot.step(*pose, motion);
       CHECK_FALSE(step.collided);
       CHECK(step.pose.heading == expected.heading);
       worst = std::max(worst, apart(step.pose, expected));
-      const Robot::Step simulated = robot.step_simulated(*pose, motion);
+      const Robot::Move simulated = plain::simulated(robot, *pose, motion);
       CHECK_FALSE(simulated.collided);
       CHECK(simulated.pose.heading == expected.heading);
       worst_simulated = std::max(worst_simulated, apart(simulated.pose, expected));
@@ -256,13 +252,13 @@ TEST_CASE("However it is driven at walls, corners and circles, the body stays ou
     for (int i = 0; i < 1000; ++i) {
       // Mostly straight on, so that it comes to press and slide.
       const int motion = random.index(4) == 0 ? static_cast<int>(random.index(5)) : 2;
-      const Robot::Step step = robot.step(pose, motion);
+      const Robot::Move step = robot.step(pose, motion);
       ++steps;
       if (step.collided) {
         ++contacts;
         if (apart(step.pose, pose) == 0.0) {
           ++resting;
-          if (apart(robot.step_simulated(pose, motion, substeps).pose, pose) > 0.0) ++stayed;
+          if (apart(plain::simulated(robot, pose, motion, substeps).pose, pose) > 0.0) ++stayed;
         }
       }
       const double room = robot.world().clearance({step.pose.x, step.pose.y}, true);
@@ -287,7 +283,7 @@ TEST_CASE("A step is a pure function of world, pose and motion") {
   struct Asked {
     Pose pose;
     int motion;
-    Robot::Step answer;
+    Robot::Move answer;
   };
   std::vector<Asked> history;
   Pose pose = free_pose(random, world, 0.1).value();
@@ -296,7 +292,7 @@ TEST_CASE("A step is a pure function of world, pose and motion") {
     history.push_back({pose, motion, robot.step(pose, motion)});
     pose = history.back().answer.pose;
   }
-  const auto agrees = [](const Robot::Step& a, const Robot::Step& b) {
+  const auto agrees = [](const Robot::Move& a, const Robot::Move& b) {
     return a.pose == b.pose && a.collided == b.collided;
   };
   long contacts = 0, differ = 0;
@@ -326,7 +322,7 @@ TEST_CASE("Sonars hear what closed forms say on random worlds") {
       pose->heading = between(random, 0.0, 360.0);
       anywhere.compare(robot, *pose);
       // Driven on until it touches something.
-      Robot::Step step{*pose, false};
+      Robot::Move step{*pose, false};
       for (int k = 0; k < 60 && !step.collided; ++k) step = robot.step(step.pose, 2);
       if (step.collided) touching.compare(robot, step.pose);
     }
@@ -398,7 +394,7 @@ TEST_CASE("The heading after a step is as commanded, whatever was touched") {
   const Robot robot(World(), {});
   Pose pose{0.15, 0.15, 30.0};
   for (int i = 0; i < 50; ++i) {
-    const Robot::Step step = robot.step(pose, i % 5);
+    const Robot::Move step = robot.step(pose, i % 5);
     const double turned =
         pose.heading + robot.def().steering_angles[static_cast<std::size_t>(i % 5)];
     CHECK(step.pose.heading == wrapped_heading(turned));
@@ -463,7 +459,6 @@ TEST_CASE("Nothing that a caller can say of a world reaches one of Box2D's asser
       for (int i = 0; i < 20; ++i) {
         robot.sonar(pose);
         const int motion = static_cast<int>(random.index(5));
-        robot.step_simulated(pose, motion, 1 + static_cast<int>(random.index(20)));
         pose = robot.step(pose, motion).pose;
         REQUIRE(robot.world().clearance({pose.x, pose.y}, true) >= robot_def.radius - 0.005);
       }

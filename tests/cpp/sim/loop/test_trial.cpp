@@ -310,7 +310,7 @@ TEST_CASE("every column follows from the poses, the world and the learner's laws
     for (std::size_t i = 0; i < record.steps(); ++i) {
       const Pose before{record.x[i], record.y[i], record.heading[i]};
       const Pose after{record.x[i + 1], record.y[i + 1], record.heading[i + 1]};
-      const Robot::Step step = robot.step(before, record.motion[i]);
+      const Robot::Move step = robot.step(before, record.motion[i]);
       wrong += step.pose != after || step.collided != static_cast<bool>(record.collided[i]);
       wrong += record.situation[i] != trial.grid().situation(before.x, before.y, before.heading);
       const double sef = state(i + 1, distance, clearance);

@@ -17,7 +17,9 @@
 #include "devlearn/random.hpp"
 #include "devlearn/robot.hpp"
 #include "devlearn/world.hpp"
+#include "sim/body/plain.hpp"
 #include "sim/world/random_worlds.hpp"
+#include "world/surfaces.hpp"
 
 using namespace devlearn;
 namespace fs = std::filesystem;
@@ -678,14 +680,10 @@ TEST_CASE("Leaving far obstacles out changes no bit of a clearance") {
       alone.emplace_back(def);
     }
     for (int i = 0; i < 100; ++i) {
-      const Point p = point_in(random, 4.0), q = point_in(random, 4.0);
-      double least = kInfinite, swept = kInfinite;
-      for (const World& one : alone) {
-        least = std::min(least, one.clearance(p));
-        swept = std::min(swept, one.swept_clearance(p, q));
-      }
+      const Point p = point_in(random, 4.0);
+      double least = kInfinite;
+      for (const World& one : alone) least = std::min(least, one.clearance(p));
       differ += least != world.clearance(p);
-      differ += swept != world.swept_clearance(p, q);
     }
   }
   CHECK(differ == 0);
@@ -707,23 +705,23 @@ TEST_CASE("Swept clearance is the least clearance along the way") {
         least =
             std::min(least, world.clearance({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}, true));
       }
-      const double swept = world.swept_clearance(a, b);
+      const double swept = plain::swept_clearance(world, a, b);
       CHECK(swept <= least + 1e-12);
       CHECK(swept >= least - 0.5 * length / samples - 1e-12);
-      CHECK(swept == doctest::Approx(world.swept_clearance(b, a)).epsilon(1e-12));
+      CHECK(swept == doctest::Approx(plain::swept_clearance(world, b, a)).epsilon(1e-12));
       (swept == 0.0 ? crossing : clear) += 1;
     }
   }
   CHECK(crossing > 300);
   CHECK(clear > 300);
-  CHECK(World().swept_clearance({1.0, 1.0}, {1.0, 1.0}) == 1.0);
+  CHECK(plain::swept_clearance(World(), {1.0, 1.0}, {1.0, 1.0}) == 1.0);
 }
 
 TEST_CASE("Edges lead around what is solid on their left, walls first") {
   const World world = World::parse(kText);
-  REQUIRE(world.edges().size() == 4 + 4 + 3);
-  REQUIRE(world.circles().size() == 1);
-  for (const World::Edge& edge : world.edges()) {
+  REQUIRE(world.surfaces().edges().size() == 4 + 4 + 3);
+  REQUIRE(world.surfaces().circles().size() == 1);
+  for (const Edge& edge : world.surfaces().edges()) {
     const Point middle{0.5 * (edge.a.x + edge.b.x), 0.5 * (edge.a.y + edge.b.y)};
     const double length = std::hypot(edge.b.x - edge.a.x, edge.b.y - edge.a.y);
     const Point left{-1e-6 * (edge.b.y - edge.a.y) / length, 1e-6 * (edge.b.x - edge.a.x) / length};
@@ -731,7 +729,7 @@ TEST_CASE("Edges lead around what is solid on their left, walls first") {
     CHECK(world.clearance({middle.x - left.x, middle.y - left.y}, true) > 0.0);
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    const World::Edge &edge = world.edges()[i], &next = world.edges()[(i + 1) % 4];
+    const Edge &edge = world.surfaces().edges()[i], &next = world.surfaces().edges()[(i + 1) % 4];
     CHECK(edge.b == next.a);
     CHECK(edge.a == next.before);
     CHECK(edge.after == next.b);

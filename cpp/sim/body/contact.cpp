@@ -1,4 +1,4 @@
-#include "body/drive.hpp"
+#include "body/contact.hpp"
 
 #include <box2d/box2d.h>
 
@@ -16,7 +16,7 @@ namespace {
 // No part of a drive moves further at once, less than the slop [m].
 constexpr double kLongestSubstep = 0.0034;
 constexpr int kLeastSubsteps = 15;
-constexpr int kPositionRounds = 3;
+constexpr int kPositionIterations = 3;
 
 // So near where it began the body keeps the box in which Box2D first put it, grown by
 // b2_aabbExtension to all sides [m].
@@ -24,12 +24,12 @@ constexpr float kFirstBox = 0.09f;
 static_assert(kFirstBox < b2_aabbExtension);
 
 // The part of an edge near a point, so that floats lose nothing to faraway corners.
-World::Edge near_part(const World::Edge& edge, Point point, double reach) {
+Edge near_part(const Edge& edge, Point point, double reach) {
   const double length = distance(edge.a, edge.b);
   const Point unit{(edge.b.x - edge.a.x) / length, (edge.b.y - edge.a.y) / length};
   const double foot = dot(point - edge.a, unit), aside = cross(unit, point - edge.a);
   const double half = std::sqrt(std::max(0.0, reach * reach - aside * aside));
-  World::Edge part = edge;
+  Edge part = edge;
   if (foot > half) {
     part.a = along(edge.a, unit, foot - half);
     part.before = along(part.a, unit, -1.0);
@@ -43,11 +43,11 @@ World::Edge near_part(const World::Edge& edge, Point point, double reach) {
 
 // What takes part in a drive, its origin where the body begins.
 struct Scene {
-  Scene(const World::Surroundings& near, const RobotDef& robot, Point from, double heading) {
+  Scene(const Surroundings& near, const RobotDef& robot, Point from, double heading) {
     edges.resize(near.edges.size());
     circles.resize(near.circles.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const World::Edge part = near_part(near.edges[i], from, reach_of(robot) + 1.0);
+      const Edge part = near_part(near.edges[i], from, reach_of(robot) + 1.0);
       edges[i].SetOneSided(vector(part.before - from), vector(part.a - from), vector(part.b - from),
                            vector(part.after - from));
     }
@@ -137,8 +137,8 @@ double reach_of(const RobotDef& robot) {
   return robot.radius + robot.speed * robot.sample_time + kMargin;
 }
 
-Drive drive_in_box2d(const World::Surroundings& near, const RobotDef& robot, Point from,
-                     double heading, int substeps, int rounds) {
+Drive drive_in_box2d(const Surroundings& near, const RobotDef& robot, Point from, double heading,
+                     int substeps, int iterations) {
   const Scene scene(near, robot, from, heading);
   b2World physics(b2Vec2(0.0f, 0.0f));
   physics.SetAllowSleeping(false);
@@ -166,7 +166,7 @@ Drive drive_in_box2d(const World::Surroundings& near, const RobotDef& robot, Poi
 
   Drive drive;
   for (int i = 0; i < substeps; ++i) {
-    physics.Step(substep_time(robot, substeps), rounds, kPositionRounds);
+    physics.Step(substep_time(robot, substeps), iterations, kPositionIterations);
     for (const b2ContactEdge* c = body->GetContactList(); c && !drive.touched; c = c->next) {
       drive.touched = c->contact->IsTouching();
     }
@@ -177,8 +177,8 @@ Drive drive_in_box2d(const World::Surroundings& near, const RobotDef& robot, Poi
 
 // b2World::Step, with b2ContactSolver's operations in their order. What they multiply by zero here
 // (turning, friction, restitution, the ground's motion) is left out.
-std::optional<Drive> drive_directly(const World::Surroundings& near, const RobotDef& robot,
-                                    Point from, double heading, int substeps, int rounds) {
+std::optional<Drive> drive_directly(const Surroundings& near, const RobotDef& robot, Point from,
+                                    double heading, int substeps, int iterations) {
   const Scene scene(near, robot, from, heading);
   const float time = substep_time(robot, substeps);
   b2MassData mass;
@@ -230,7 +230,7 @@ std::optional<Drive> drive_directly(const World::Surroundings& near, const Robot
     }
     // Impulses take away what leads into the surfaces, and never pull.
     bool changing = true;
-    for (int round = 0; round < rounds && changing; ++round) {
+    for (int i_v = 0; i_v < iterations && changing; ++i_v) {
       changing = false;
       for (Contact& contact : contacts) {
         const float inward = b2Dot(velocity, contact.normal);
@@ -243,9 +243,9 @@ std::optional<Drive> drive_directly(const World::Surroundings& near, const Robot
     }
     at.p += time * velocity;
 
-    // What lies deeper than the slop is pushed out, a part a round.
+    // What lies deeper than the slop is pushed out, a part an iteration.
     float deepest = -b2_maxFloat;
-    for (int round = 0; round < kPositionRounds && deepest < -3.0f * b2_linearSlop; ++round) {
+    for (int i_p = 0; i_p < kPositionIterations && deepest < -3.0f * b2_linearSlop; ++i_p) {
       deepest = 0.0f;
       for (const Contact& contact : contacts) {
         const bool round_surface = contact.manifold.type == b2Manifold::e_circles;

@@ -1,0 +1,73 @@
+#include "body/kinematics.hpp"
+
+#include <algorithm>
+
+#include "devlearn/detail/require.hpp"
+#include "devlearn/math.hpp"
+#include "world/surfaces.hpp"
+
+namespace devlearn {
+namespace {
+
+// The way is free with more room than Box2D's skin of 0.01 m around edges, and a little [m].
+constexpr double kFreeMargin = 0.0105;
+
+constexpr double kPi = 3.14159265358979323846;
+
+double steering_angle(const RobotDef& robot, int motion) {
+  const auto count = static_cast<long long>(robot.steering_angles.size());
+  require_count("motion", motion, 0, count - 1);
+  return robot.steering_angles[static_cast<std::size_t>(motion)];
+}
+
+}  // namespace
+
+double step_length(const RobotDef& robot) noexcept { return robot.speed * robot.sample_time; }
+
+// Eq. 1: theta' = theta + dtheta
+double heading_after(const RobotDef& robot, const Pose& pose, int motion) {
+  return wrapped_heading(pose.heading + steering_angle(robot, motion));
+}
+
+// Eq. 1: x' = x + v t_s cos theta', y' = y + v t_s sin theta'
+Pose driven(const RobotDef& robot, const Pose& pose, double heading) noexcept {
+  const Direction ahead = direction(heading);
+  const double length = step_length(robot);
+  return {pose.x + length * ahead.x, pose.y + length * ahead.y, heading};
+}
+
+// Eq. 2: v_r = -v_l = dtheta track / (2 t_s)
+WheelSpeeds Robot::turn_speeds(int motion) const {
+  const double turn = steering_angle(def_, motion) * (kPi / 180.0);
+  const double track = def_.track == 0.0 ? def_.radius : def_.track;
+  const double right = turn * track / (2.0 * def_.sample_time);
+  return {-right, right};
+}
+
+// Eq. 2: v_r = v_l = v
+WheelSpeeds Robot::drive_speeds() const noexcept { return {def_.speed, def_.speed}; }
+
+// Decided where it can be by what is known of the ends: no point on the way is nearer to anything
+// than an end less its way there.
+bool way_is_free(const World& world, const RobotDef& robot, const Pose& from,
+                 const Pose& to) noexcept {
+  constexpr double kRounding = 1e-9;  // [m], more than all of it
+  const Point start{from.x, from.y}, end{to.x, to.y};
+  const double room = robot.radius + kFreeMargin, length = step_length(robot);
+  const double at_end = world.clearance(end, true);
+  if (at_end < room - kRounding) return false;
+  if (at_end > room + length + kRounding) return true;
+  const double at_start = world.clearance(start, true);
+  if (at_start < room - kRounding) return false;
+  if (at_start + at_end - length > 2.0 * (room + kRounding)) return true;
+  return world.surfaces().keep_clear_of(start, end, room);
+}
+
+std::optional<Pose> free_step(const World& world, const RobotDef& robot, const Pose& pose,
+                              int motion) {
+  const Pose next = driven(robot, pose, heading_after(robot, pose, motion));
+  if (way_is_free(world, robot, pose, next)) return next;
+  return std::nullopt;
+}
+
+}  // namespace devlearn

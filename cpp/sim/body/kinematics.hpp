@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "devlearn/robot.hpp"
+#include "devlearn/situation.hpp"
+#include "devlearn/world.hpp"
+
+// Eq. 1 and 2, and where nothing stands in the way of them.
+namespace devlearn {
+
+/// v t_s, how far a step drives [m].
+double step_length(const RobotDef& robot) noexcept;
+
+/// Eq. 1, the turn: the heading of the drive [degrees]. Throws InvalidValue for a motion outside M.
+double heading_after(const RobotDef& robot, const Pose& pose, int motion);
+
+/// Eq. 1, the drive: where it leads with nothing in the way.
+Pose driven(const RobotDef& robot, const Pose& pose, double heading) noexcept;
+
+/// Whether the body sweeps from a pose straight to another, a step away, without coming so near to
+/// anything that Box2D had a say.
+bool way_is_free(const World& world, const RobotDef& robot, const Pose& from,
+                 const Pose& to) noexcept;
+
+/// The next pose where the way to it is free; nothing where it is not. Throws InvalidValue for a
+/// motion outside M.
+std::optional<Pose> free_step(const World& world, const RobotDef& robot, const Pose& pose,
+                              int motion);
+
+}  // namespace devlearn

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <vector>
+
+#include "devlearn/robot.hpp"
+#include "devlearn/situation.hpp"
+#include "devlearn/world.hpp"
+
+namespace devlearn {
+
+/// The sonars of a robot: rays in a Box2D world of all that stands still.
+class Sonars {
+ public:
+  Sonars(const World& world, const RobotDef& robot);
+
+  /// Echo distances from the rim of a body at a pose, as Robot::sonar has them.
+  void listen(const Pose& pose, double* echoes) const;
+
+ private:
+  b2World standing_;
+  std::vector<double> angles_;
+  double radius_, range_;
+};
+
+}  // namespace devlearn
