@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "devlearn/error.hpp"
@@ -120,8 +121,13 @@ void SideFile::refuse() const { throw FileError(path_, "", std::strerror(errno),
 
 // --- reading -------------------------------------------------------------------------------------
 
+namespace {
+
+constexpr const char* kReadable = "a file that can be read";
+
+}  // namespace
+
 std::vector<std::byte> bytes_of_file(const std::string& path) {
-  constexpr const char* kReadable = "a file that can be read";
   const auto refuse = [&](const char* what) { throw FileError(path, "", what, kReadable); };
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) refuse(std::strerror(errno));
@@ -144,6 +150,18 @@ std::vector<std::byte> bytes_of_file(const std::string& path) {
   }
   bytes.resize(size);
   return bytes;
+}
+
+std::string text_of_file(const std::string& path, std::size_t most) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  char part[1 << 16];
+  while (file && text.size() <= most) {
+    file.read(part, static_cast<std::streamsize>(std::min(sizeof part, most + 1 - text.size())));
+    text.append(part, static_cast<std::size_t>(file.gcount()));
+  }
+  if (!file.is_open() || file.bad()) throw FileError(path, "", std::strerror(errno), kReadable);
+  return text;
 }
 
 }  // namespace devlearn

@@ -32,5 +32,7 @@ class SideFile {
 
 /// The whole of a regular file, in memory bounded by its size. Throws FileError.
 std::vector<std::byte> bytes_of_file(const std::string& path);
+/// The text of a file of any kind, of a longer one `most` bytes and another. Throws FileError.
+std::string text_of_file(const std::string& path, std::size_t most);
 
 }  // namespace devlearn

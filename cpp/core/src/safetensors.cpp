@@ -5,18 +5,18 @@
 #include <istream>
 #include <limits>
 #include <ostream>
-#include <set>
+#include <string_view>
 
 #include "devlearn/error.hpp"
 #include "excerpt.hpp"
 #include "file.hpp"
+#include "json.hpp"
 
 namespace devlearn::safetensors {
 namespace {
 
 constexpr std::size_t kLengthBytes = 8;
-constexpr std::size_t kLongestHeader = std::size_t{100} << 20;
-constexpr std::size_t kMostKeys = 1000;  // of an object
+constexpr json::Limits kHeader{std::size_t{100} << 20, 3, 100'000};
 constexpr std::size_t kChecksumDigits = 16;
 constexpr std::size_t kAlignment = 8;
 
@@ -32,11 +32,13 @@ std::size_t size_of(const std::string& dtype) {
 }
 
 // FNV-1a, 64 bits: any single changed byte changes it.
-std::uint64_t fnv(const std::byte* bytes, std::size_t size, std::uint64_t hash) {
-  for (std::size_t i = 0; i < size; ++i) {
-    hash = (hash ^ static_cast<std::uint64_t>(bytes[i])) * 0x100000001b3U;
-  }
+std::uint64_t fnv(std::uint64_t hash, const void* data, std::size_t size) {
+  const auto* const bytes = static_cast<const unsigned char*>(data);
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3U;
   return hash;
+}
+std::uint64_t fnv(std::uint64_t hash, std::string_view text) {
+  return fnv(hash, text.data(), text.size());
 }
 
 constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325U;
@@ -49,6 +51,7 @@ std::string hexadecimal(std::uint64_t value) {
   return digits;
 }
 
+// Unlike json::quoted, with \u for every control character: so that bytes stay what they were.
 std::string quoted(const std::string& text) {
   std::string json = "\"";
   for (const char letter : text) {
@@ -63,181 +66,6 @@ std::string quoted(const std::string& text) {
     }
   }
   return json + '"';
-}
-
-// Reads the header's text from left to right.
-class Reader {
- public:
-  Reader(const char* begin, const char* end, const std::string& source)
-      : begin_(begin), next_(begin), end_(end), source_(source) {}
-
-  [[noreturn]] void refuse(const std::string& what, const std::string& allowed) const {
-    throw FileError(source_, "header, byte " + std::to_string(next_ - begin_), what, allowed);
-  }
-
-  char peek() {
-    while (next_ != end_ && (*next_ == ' ' || *next_ == '\n' || *next_ == '\t' || *next_ == '\r')) {
-      ++next_;
-    }
-    return next_ == end_ ? '\0' : *next_;
-  }
-
-  void expect(char letter) {
-    if (peek() != letter) refuse(next_ == end_ ? "the end" : excerpt({*next_}), {letter});
-    ++next_;
-  }
-
-  // Calls item() for each, between brackets, with commas between.
-  template <typename Item>
-  void list(char open, char close, const Item& item) {
-    expect(open);
-    if (peek() == close) {
-      ++next_;
-      return;
-    }
-    for (;;) {
-      item();
-      if (peek() != ',') break;
-      ++next_;
-    }
-    expect(close);
-  }
-
-  // Calls member(key) for each, no key twice.
-  template <typename Member>
-  void object(const Member& member) {
-    std::set<std::string> keys;
-    list('{', '}', [&] {
-      const std::string key = string();
-      if (!keys.insert(key).second) refuse("the key " + excerpt(key) + " again", "each key once");
-      if (keys.size() > kMostKeys) {
-        refuse("another key", "at most " + std::to_string(kMostKeys) + " keys");
-      }
-      expect(':');
-      member(key);
-    });
-  }
-
-  std::string string() {
-    expect('"');
-    std::string text;
-    while (next_ != end_ && *next_ != '"') {
-      if (static_cast<unsigned char>(*next_) < 0x20) refuse("a control character", "an escape");
-      if (*next_ == '\\') {
-        ++next_;
-        escape(text);
-      } else {
-        text += *next_++;
-      }
-    }
-    if (next_ == end_) refuse("the end", "the end of a string first");
-    ++next_;
-    return text;
-  }
-
-  std::uint64_t whole_number() {
-    peek();
-    const char* const first = next_;
-    std::uint64_t value = 0;
-    for (; next_ != end_ && *next_ >= '0' && *next_ <= '9'; ++next_) {
-      const auto digit = static_cast<std::uint64_t>(*next_ - '0');
-      if (value > (std::numeric_limits<std::uint64_t>::max() - digit) / 10) {
-        refuse("a number beyond 2^64 - 1", "a whole number of 64 bits");
-      }
-      value = value * 10 + digit;
-    }
-    if (next_ == first) refuse("no number", "a whole number, at least 0");
-    return value;
-  }
-
-  void expect_end() {
-    if (peek() != '\0' || next_ != end_) refuse("more text", "the end of the header");
-  }
-
-  const char* position() const { return next_; }
-
- private:
-  void escape(std::string& text) {
-    if (next_ == end_) refuse("the end", "an escape");
-    static constexpr char kLetters[] = "\"\\/bfnrt", kMeant[] = "\"\\/\b\f\n\r\t";
-    const char letter = *next_++;
-    if (letter == 'u') {
-      append_utf8(text, code_unit());
-      return;
-    }
-    const char* const found = letter == '\0' ? nullptr : std::strchr(kLetters, letter);
-    if (found == nullptr)
-      refuse("an unknown escape", "one of \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\u");
-    text += kMeant[found - kLetters];
-  }
-
-  std::uint32_t code_unit() {
-    std::uint32_t code = 0;
-    for (int i = 0; i < 4; ++i, ++next_) {
-      static constexpr char kDigits[] = "0123456789abcdefABCDEF";
-      const char* const found =
-          next_ == end_ || *next_ == '\0' ? nullptr : std::strchr(kDigits, *next_);
-      if (found == nullptr) refuse("a broken escape", "four hexadecimal digits");
-      const auto digit = static_cast<std::uint32_t>(found - kDigits);
-      code = code * 16 + (digit < 16 ? digit : digit - 6);
-    }
-    return code;
-  }
-
-  void append_utf8(std::string& text, std::uint32_t code) {
-    if (code >= 0xd800 && code < 0xdc00) {
-      if (end_ - next_ < 6 || next_[0] != '\\' || next_[1] != 'u') {
-        refuse("half a surrogate pair", "both halves");
-      }
-      next_ += 2;
-      const std::uint32_t low = code_unit();
-      if (low < 0xdc00 || low >= 0xe000) refuse("half a surrogate pair", "both halves");
-      code = 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
-    } else if (code >= 0xdc00 && code < 0xe000) {
-      refuse("half a surrogate pair", "both halves");
-    }
-    const auto append = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
-    if (code < 0x80) {
-      append(code);
-    } else if (code < 0x800) {
-      append(0xc0 | code >> 6);
-      append(0x80 | (code & 63));
-    } else if (code < 0x10000) {
-      append(0xe0 | code >> 12);
-      append(0x80 | (code >> 6 & 63));
-      append(0x80 | (code & 63));
-    } else {
-      append(0xf0 | code >> 18);
-      append(0x80 | (code >> 12 & 63));
-      append(0x80 | (code >> 6 & 63));
-      append(0x80 | (code & 63));
-    }
-  }
-
-  const char* begin_;
-  const char* next_;
-  const char* end_;
-  const std::string& source_;
-};
-
-struct Range {
-  std::uint64_t begin = 0, end = 0;
-};
-
-// Bytes of an array of this shape; no overflow.
-std::uint64_t bytes_of(const Array& array, const std::string& field, const std::string& source) {
-  std::uint64_t bytes = size_of(array.dtype);
-  if (bytes == 0) {
-    throw FileError(source, field + ".dtype", excerpt(array.dtype),
-                    "one of F64, I64, U64, I32, U32, U16, U8, BOOL");
-  }
-  for (const std::uint64_t length : array.shape) {
-    if (length != 0 && bytes > std::numeric_limits<std::uint64_t>::max() / length) {
-      throw FileError(source, field + ".shape", "more than 2^64 bytes", "what the file holds");
-    }
-    bytes *= length;
-  }
-  return bytes;
 }
 
 }  // namespace
@@ -299,10 +127,10 @@ std::vector<std::byte> header(Metadata metadata, const Arrays& arrays) {
     text += quoted(value);
   }
   text += "}";
-  std::map<const Array*, Range> ranges;
+  std::map<const Array*, std::uint64_t> begins;
   std::uint64_t offset = 0;
   for (const Array* array : in_order(arrays)) {
-    ranges[array] = {offset, offset + array->bytes};
+    begins[array] = offset;
     offset += array->bytes;
   }
   for (const auto& [name, array] : arrays) {
@@ -311,15 +139,15 @@ std::vector<std::byte> header(Metadata metadata, const Arrays& arrays) {
       if (text.back() != '[') text += ',';
       text += std::to_string(length);
     }
-    const Range range = ranges[&array];
-    text += "],\"data_offsets\":[" + std::to_string(range.begin) + "," + std::to_string(range.end) +
-            "]}";
+    const std::uint64_t begin = begins[&array];
+    text += "],\"data_offsets\":[" + std::to_string(begin) + "," +
+            std::to_string(begin + array.bytes) + "]}";
   }
   text += "}";
   text.resize((text.size() + kAlignment - 1) / kAlignment * kAlignment, ' ');
 
-  std::uint64_t hash = fnv(reinterpret_cast<const std::byte*>(text.data()), text.size(), kFnvStart);
-  for (const Array* array : in_order(arrays)) hash = fnv(array->data, array->bytes, hash);
+  std::uint64_t hash = fnv(kFnvStart, text);
+  for (const Array* array : in_order(arrays)) hash = fnv(hash, array->data, array->bytes);
   text.replace(checksum_at, kChecksumDigits, hexadecimal(hash));
 
   std::vector<std::byte> bytes(kLengthBytes + text.size());
@@ -368,95 +196,117 @@ std::vector<std::byte> read_stream(std::istream& stream) {
   return bytes;
 }
 
+namespace {
+
+// An array as the header describes it.
+Array array_at(const json::Node& described, const std::byte* data, std::size_t data_size) {
+  described.require_known({"dtype", "shape", "data_offsets"});
+  Array array;
+  const json::Node dtype = described["dtype"], shape = described["shape"];
+  array.dtype = dtype.text();
+  std::uint64_t bytes = size_of(array.dtype);
+  if (bytes == 0) dtype.refuse("one of F64, I64, U64, I32, U32, U16, U8, BOOL");
+  shape.each_element([&](const json::Node& element) {
+    const std::uint64_t length = element.whole_number();
+    if (length != 0 && bytes > std::numeric_limits<std::uint64_t>::max() / length) {
+      shape.refuse("more than 2^64 bytes", "what the file holds");
+    }
+    bytes *= length;
+    array.shape.push_back(length);
+  });
+
+  const json::Node offsets = described["data_offsets"];
+  if (offsets.size() != 2) offsets.refuse("[begin, end]");
+  const std::uint64_t begin = offsets[0].whole_number(), end = offsets[1].whole_number();
+  if (begin > end || end > data_size) {
+    offsets.refuse("a range outside the file",
+                   "[begin, end] within the " + std::to_string(data_size) + " bytes of data");
+  }
+  if (bytes != end - begin) {
+    shape.refuse(std::to_string(end - begin) + " bytes", "as many as dtype and shape make");
+  }
+  array.data = data + begin;
+  array.bytes = end - begin;
+  return array;
+}
+
+Contents described_by(const json::Node& header, const std::byte* data, std::size_t data_size) {
+  Contents contents;
+  header.each_field([&](const std::string& name, const json::Node& field) {
+    if (name != kMetadata) {
+      contents.arrays[name] = array_at(field, data, data_size);
+      return;
+    }
+    field.each_field([&](const std::string& key, const json::Node& value) {
+      contents.metadata[key] = value.text();
+    });
+  });
+  return contents;
+}
+
+// Arrays lie side by side, and fill the data.
+void require_gapless(const Arrays& arrays, const std::byte* data, std::size_t data_size,
+                     const std::string& source) {
+  std::vector<const Arrays::value_type*> order;
+  for (const auto& named : arrays) order.push_back(&named);
+  std::sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
+    return std::pair(a->second.data, a->second.bytes) < std::pair(b->second.data, b->second.bytes);
+  });
+  std::size_t covered = 0;
+  for (const auto* named : order) {
+    const auto begin = static_cast<std::size_t>(named->second.data - data);
+    if (begin != covered) {
+      throw FileError(source, excerpt(named->first) + ".data_offsets", std::to_string(begin),
+                      std::to_string(covered) + ": arrays side by side");
+    }
+    covered += named->second.bytes;
+  }
+  if (covered != data_size) {
+    throw FileError(source, "",
+                    std::to_string(data_size - covered) + " bytes beyond the last array", "none");
+  }
+}
+
+// It is over the header with the checksum's own digits as zeros, and the data.
+void require_checksum(const std::string& found, std::string_view header, const std::byte* data,
+                      std::size_t data_size, const std::string& source) {
+  const std::size_t place = header.find('"' + found + '"');
+  if (found.size() != kChecksumDigits || place == header.npos) {
+    throw FileError(source, kChecksum, excerpt(found), "16 hexadecimal digits");
+  }
+  std::uint64_t hash = fnv(kFnvStart, header.substr(0, place + 1));
+  hash = fnv(hash, std::string(kChecksumDigits, '0'));
+  hash = fnv(hash, header.substr(place + 1 + kChecksumDigits));
+  hash = fnv(hash, data, data_size);
+  if (found != hexadecimal(hash)) {
+    throw FileError(source, kChecksum, excerpt(found),
+                    hexadecimal(hash) + "; the file was damaged");
+  }
+}
+
+}  // namespace
+
 Contents read(const std::byte* bytes, std::size_t size, const std::string& source) {
-  const auto refuse = [&](const std::string& field, const std::string& value,
-                          const std::string& allowed) -> void {
-    throw FileError(source, field, value, allowed);
-  };
   if (size < kLengthBytes) {
-    refuse("", std::to_string(size) + " bytes", "a snapshot: at least 8 bytes");
+    throw FileError(source, "", std::to_string(size) + " bytes", "a snapshot: at least 8 bytes");
   }
   std::uint64_t length = 0;
   for (std::size_t i = kLengthBytes; i-- > 0;) {
     length = length << 8 | static_cast<std::uint64_t>(bytes[i]);
   }
-  if (length > size - kLengthBytes || length > kLongestHeader) {
-    refuse("header length", std::to_string(length),
-           "at most " + std::to_string(std::min(size - kLengthBytes, kLongestHeader)) +
-               " bytes; the file is cut off, or no snapshot");
+  if (length > size - kLengthBytes) {
+    throw FileError(source, "header length", std::to_string(length),
+                    "at most " + std::to_string(size - kLengthBytes) +
+                        " bytes; the file is cut off, or no snapshot");
   }
-  const auto* const text = reinterpret_cast<const char*>(bytes) + kLengthBytes;
+  const std::string_view header(reinterpret_cast<const char*>(bytes) + kLengthBytes, length);
   const std::byte* const data = bytes + kLengthBytes + length;
-  const std::uint64_t data_size = size - kLengthBytes - length;
+  const std::size_t data_size = size - kLengthBytes - length;
 
-  Contents contents;
-  std::vector<std::pair<Range, std::string>> ranges;
-  std::size_t checksum_at = 0;
-  Reader reader(text, text + length, source);
-  reader.object([&](const std::string& name) {
-    if (name == kMetadata) {
-      reader.object([&](const std::string& key) {
-        contents.metadata[key] = reader.string();
-        if (key == kChecksum) {
-          checksum_at = static_cast<std::size_t>(reader.position() - text) - 1 - kChecksumDigits;
-        }
-      });
-      return;
-    }
-    Array array;
-    std::vector<std::uint64_t> offsets;
-    reader.object([&](const std::string& key) {
-      if (key == "dtype") {
-        array.dtype = reader.string();
-      } else if (key == "shape") {
-        reader.list('[', ']', [&] { array.shape.push_back(reader.whole_number()); });
-      } else if (key == "data_offsets") {
-        reader.list('[', ']', [&] { offsets.push_back(reader.whole_number()); });
-      } else {
-        reader.refuse("the key " + excerpt(key), "dtype, shape and data_offsets");
-      }
-    });
-    if (offsets.size() != 2 || offsets[0] > offsets[1] || offsets[1] > data_size) {
-      refuse(excerpt(name) + ".data_offsets", "a range outside the file",
-             "[begin, end] within the " + std::to_string(data_size) + " bytes of data");
-    }
-    if (bytes_of(array, excerpt(name), source) != offsets[1] - offsets[0]) {
-      refuse(excerpt(name) + ".shape", std::to_string(offsets[1] - offsets[0]) + " bytes",
-             "as many as dtype and shape make");
-    }
-    array.data = data + offsets[0];
-    array.bytes = offsets[1] - offsets[0];
-    ranges.push_back({{offsets[0], offsets[1]}, name});
-    contents.arrays[name] = std::move(array);
-  });
-  reader.expect_end();
-
-  std::sort(ranges.begin(), ranges.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.first.begin, a.first.end) < std::pair(b.first.begin, b.first.end);
-  });
-  std::uint64_t covered = 0;
-  for (const auto& [range, name] : ranges) {
-    if (range.begin != covered) {
-      refuse(excerpt(name) + ".data_offsets", std::to_string(range.begin),
-             std::to_string(covered) + ": arrays side by side");
-    }
-    covered = range.end;
-  }
-  if (covered != data_size) {
-    refuse("", std::to_string(data_size - covered) + " bytes beyond the last array", "none");
-  }
-
-  // Over the header with the checksum's digits as zeros, and the data.
-  const std::string& found = entry(contents, kChecksum, source);
-  if (found.size() != kChecksumDigits) refuse(kChecksum, excerpt(found), "16 hexadecimal digits");
-  std::string zeroed(text, length);
-  zeroed.replace(checksum_at, kChecksumDigits, kChecksumDigits, '0');
-  const std::uint64_t hash =
-      fnv(data, data_size,
-          fnv(reinterpret_cast<const std::byte*>(zeroed.data()), zeroed.size(), kFnvStart));
-  if (found != hexadecimal(hash)) {
-    refuse(kChecksum, excerpt(found), hexadecimal(hash) + "; the file was damaged");
-  }
+  const json::Document document(header, source, kHeader, "header");
+  Contents contents = described_by(document.root(), data, data_size);
+  require_gapless(contents.arrays, data, data_size, source);
+  require_checksum(entry(contents, kChecksum, source), header, data, data_size, source);
   return contents;
 }
 

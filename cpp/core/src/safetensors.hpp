@@ -11,8 +11,7 @@
 #include <vector>
 
 // The safetensors layout: eight bytes of header length (little-endian), a JSON header, then plain
-// arrays. Of JSON it needs two levels of objects, strings and whole numbers; reading just those,
-// without recursion, bounds what a hostile file can do and keeps core free of a JSON library.
+// arrays.
 namespace devlearn::safetensors {
 
 /// One plain array, in rows. dtype is safetensors' name: F64, I64, U64, I32, U32, U16, U8, BOOL.

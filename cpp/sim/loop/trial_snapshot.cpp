@@ -9,9 +9,9 @@
 #include "devlearn/error.hpp"
 #include "excerpt.hpp"
 #include "file.hpp"
+#include "json.hpp"
 #include "learner_snapshot.hpp"
 #include "loop/record_columns.hpp"
-#include "world/world_text.hpp"
 
 namespace devlearn {
 namespace {
@@ -70,7 +70,7 @@ class Description {
       contents_.metadata["agent"] = kNone;
     }
     if (options.record != nullptr) describe_record(*options.record);
-    if (!is_utf8(options.note)) throw InvalidValue("note", excerpt(options.note), "UTF-8");
+    if (!json::is_utf8(options.note)) throw InvalidValue("note", excerpt(options.note), "UTF-8");
     if (!options.note.empty()) contents_.metadata["note"] = options.note;
   }
   Description(const Description&) = delete;
@@ -261,7 +261,6 @@ TrialSnapshot load_trial(const std::byte* bytes, std::size_t size, std::shared_p
   require_format(contents, kFormat, kFormatVersion, source);
   const auto entry = contents.metadata.find("note");
   const std::string note = entry == contents.metadata.end() ? "" : entry->second;
-  if (!is_utf8(note)) throw FileError(source, "note", excerpt(note), "UTF-8");
   return {trial_of(contents, std::move(agent), source), record_of(contents, source), note};
 }
 

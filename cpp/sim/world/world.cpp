@@ -7,10 +7,10 @@
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
+#include "json.hpp"
 #include "world/geometry.hpp"
 #include "world/simple_polygon.hpp"
 #include "world/surfaces.hpp"
-#include "world/world_text.hpp"
 
 namespace devlearn {
 namespace {
@@ -35,7 +35,7 @@ void require_text(const std::string& quantity, const std::string& text) {
     throw InvalidValue(quantity, std::to_string(text.size()) + " bytes",
                        "at most " + std::to_string(kLongestText) + " bytes");
   }
-  if (!is_utf8(text)) throw InvalidValue(quantity, "other bytes", "UTF-8 text");
+  if (!json::is_utf8(text)) throw InvalidValue(quantity, "other bytes", "UTF-8 text");
 }
 
 // Obstacles may stick out of the arena, but not lie anywhere.

@@ -337,6 +337,8 @@ TEST_CASE("a trial's snapshot that lies is refused, naming the lie") {
     const Bytes learner = to_bytes(Learner());
     CHECK(refusal(learner) == "format");
     CHECK_THROWS_AS(load_learner(good.mended().data(), good.mended().size()), FileError);
+    CHECK(with_text("\"box2d\":", "\"note\":\"\xff\",\"box2d\":") == "header");
+    CHECK(with_entry("box2d", "\xff") == "header");
   }
   SUBCASE("about where the robot is") {
     CHECK(with("pose", 0, nan) == "pose.x");
@@ -357,7 +359,7 @@ TEST_CASE("a trial's snapshot that lies is refused, naming the lie") {
     CHECK(with_entry("round", "99999999999") == "round");
   }
   SUBCASE("about the world") {
-    CHECK(with_text("\\\"arena\\\"", "\\\"arenas\\\"") == "world.arena");
+    CHECK(with_text("\\\"arena\\\"", "\\\"arenas\\\"") == "world.arenas");
     CHECK(with_text("\\\"width\\\": 5", "\\\"width\\\": 1e9") == "world.arena.width");
     CHECK(with_text("\\\"version\\\": 1", "\\\"version\\\": 2") == "world.version");
     const std::string deep(50000, '[');

@@ -235,7 +235,6 @@ TEST_CASE("What may be left out of a file may be left out") {
   CHECK(World::parse(kText).def().description.empty());
   const World world = World::parse(replaced(kText, R"(, "angle": 30)", ""));
   CHECK(std::get<Rectangle>(world.def().obstacles[1]).angle == 0.0);
-  CHECK(World::parse("\xef\xbb\xbf" + kText).def().name == "example");
 }
 
 TEST_CASE("Every world that ships loads, round-trips and has room for the default robot") {
@@ -336,7 +335,7 @@ TEST_CASE("A file that breaks the format is refused by the path of its field") {
   edited(R"("name")", R"("title")", "title");
   edited(R"("width")", R"("depth": 1, "width")", "arena.depth");
   edited(R"("radius": 0.25)", R"("radius": 0.25, "angle": 0)", "obstacles[0].angle");
-  edited(R"("heading")", R"("theta")", "start.heading");
+  edited(R"("heading")", R"("theta")", "start.theta");
   edited(R"(, "heading": 0)", "", "start.heading");
   edited(R"(, "radius": 0.25)", "", "obstacles[0].radius");
   edited(R"("target": {"x": 4.5, "y": 3.5},)", "", "target");
@@ -399,6 +398,8 @@ TEST_CASE("Text that is not JSON is refused with line and column") {
   says(refusal(replaced(kText, "[4, 1.25]", "[4, -1e999]"), "obstacles[2].corners[1][1]"),
        "-1e999");
   says(refusal("1e999", ""), "1e999");
+  says(refusal("\xef\xbb\xbf" + kText, ""), "byte order mark");
+  says(refusal(kText + '\0', ""), "byte of zero");
   for (const char c : refusal(replaced(kText, "example", "ex\xff\xfe"), "")) {
     REQUIRE((c >= ' ' && c <= '~'));
   }
@@ -419,12 +420,8 @@ TEST_CASE("Depth and sizes are bounded while reading") {
   refusal(objects, "a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a");
 
   std::string many = "[0";
-  for (int i = 0; i < 100000; ++i) many += ",0";
-  refusal(replaced(kText, "[[3, 1], [4, 1.25], [3.5, 2]]", many + "]"),
-          "obstacles[2].corners[100000]");
-  std::string fields;
-  for (int i = 0; i < 40; ++i) fields += "\"f" + std::to_string(i) + "\": 0, ";
-  refusal(replaced(kText, R"("width": 5)", fields + R"("width": 5)"), "arena.f32");
+  for (int i = 1; i < 4000000; ++i) many += ",0";
+  CHECK(refusal(many + "]", "[3999999]").find("at most 4000000 values") != std::string::npos);
   CHECK(refusal(std::string((std::size_t{64} << 20) + 1, ' '), "").find("64 MiB") !=
         std::string::npos);
 }
