@@ -16,7 +16,7 @@ function(devlearn_install name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${name})
 
   # A static library leaves it to the program to link what it stands on; a shared one does not.
-  set(requires "")
+  set(requires "eigen3 >= 3.4")
   if(name STREQUAL "agents")
     set(requires "devlearn-core = ${PROJECT_VERSION}")
   elseif(name STREQUAL "sim")

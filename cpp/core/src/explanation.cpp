@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "op.hpp"
+
 namespace devlearn {
 namespace {
 
@@ -31,38 +33,41 @@ void append(std::string& text, const char* format, Values... values) {
 Explanation explain(SituationId situation, const MotorMemory& memory, double sigma,
                     const Curiosity& curiosity) {
   const int n = memory.effective_count(), unexplored = memory.unexplored_count();
-  const int outcomes = outcome_count(memory);
+  const int draws = draw_count(memory);
   Explanation why;
   why.situation = situation;
   why.memory = memory.copy();
-  why.explore = static_cast<double>(unexplored) / outcomes;
-  why.exploit = static_cast<double>(n) / outcomes;
+  why.explore = static_cast<double>(unexplored) / draws;
+  why.exploit = static_cast<double>(n) / draws;
   why.exhausted = n + unexplored == 0 ? 1.0 : 0.0;
-  for (int j = 0; j < n; ++j) {
-    const double orientation = memory.orientation(j), active = curiosity(memory.times_learned(j));
-    why.curiosity.push_back(active);
-    why.op_plain.push_back(op(orientation, 0.0, sigma));
-    why.op_curious.push_back(op(orientation, active, sigma));
+  for (const std::uint32_t times_learned : why.memory.times_learned) {
+    why.curiosity.push_back(curiosity(times_learned));
   }
-  std::vector<int> outcomes_of(static_cast<std::size_t>(memory.motion_count()));
-  for (int outcome = 0; outcome < outcomes; ++outcome) {
-    const Choice choice = choice_at(memory, choose_motion(memory, outcome, sigma, curiosity));
-    ++outcomes_of[static_cast<std::size_t>(choice.motion)];
+  why.op_plain.resize(why.curiosity.size());
+  why.op_curious.resize(why.curiosity.size());
+  const ConstArray o(memory.orientations(), n), c(why.curiosity.data(), n);
+  Array(why.op_plain.data(), n) = op(o, 0.0 * c, sigma);
+  Array(why.op_curious.data(), n) = op(o, c, sigma);
+
+  std::vector<int> draws_of(static_cast<std::size_t>(memory.motion_count()));
+  for (int draw = 0; draw < draws; ++draw) {
+    const Choice choice = choice_at(memory, choose_motion(memory, draw, sigma, curiosity));
+    ++draws_of[static_cast<std::size_t>(choice.motion)];
     if (choice.kind == Kind::kExploit) why.winner.push_back(choice.motion);
   }
-  for (const int count : outcomes_of) {
-    why.probability.push_back(static_cast<double>(count) / outcomes);
+  for (const int count : draws_of) {
+    why.probability.push_back(static_cast<double>(count) / draws);
   }
   return why;
 }
 
-ChoiceTrace trace(SituationId situation, const MotorMemory& memory, int outcome, double sigma,
+ChoiceTrace trace(SituationId situation, const MotorMemory& memory, int draw, double sigma,
                   const Curiosity& curiosity) {
   ChoiceTrace trace;
   trace.explanation = explain(situation, memory, sigma, curiosity);
-  trace.choice = choice_at(memory, choose_motion(memory, outcome, sigma, curiosity));
+  trace.choice = choice_at(memory, choose_motion(memory, draw, sigma, curiosity));
   if (trace.choice.kind == Kind::kExploit) {
-    const int curious = outcome - memory.unexplored_count();
+    const int curious = draw - memory.unexplored_count();
     trace.curious = memory.motion(curious);
     trace.op = trace.explanation.op_plain;
     trace.op[static_cast<std::size_t>(curious)] =

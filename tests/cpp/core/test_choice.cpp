@@ -42,9 +42,9 @@ class Chooser {
       : sigma_(config.sigma), curiosity_(config.c1, config.c2) {}
 
   Choice operator()(const MotorMemory& memory, Random& random) const {
-    const auto count = static_cast<std::uint32_t>(outcome_count(memory));
-    const auto outcome = static_cast<int>(random.index(count));
-    return choice_at(memory, choose_motion(memory, outcome, sigma_, curiosity_));
+    const auto count = static_cast<std::uint32_t>(draw_count(memory));
+    const auto draw = static_cast<int>(random.index(count));
+    return choice_at(memory, choose_motion(memory, draw, sigma_, curiosity_));
   }
 
  private:
@@ -76,11 +76,9 @@ std::vector<int> simulated(const std::vector<double>& probabilities, unsigned se
   std::vector<int> counts(probabilities.size());
   for (int i = 0; i < kChoices; ++i) {
     double u = static_cast<double>(generator() >> 11) * 0x1p-53;
-    std::size_t outcome = 0;
-    while (outcome + 1 < counts.size() && u >= probabilities[outcome]) {
-      u -= probabilities[outcome++];
-    }
-    ++counts[outcome];
+    std::size_t draw = 0;
+    while (draw + 1 < counts.size() && u >= probabilities[draw]) u -= probabilities[draw++];
+    ++counts[draw];
   }
   return counts;
 }

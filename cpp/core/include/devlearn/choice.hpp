@@ -42,42 +42,30 @@ class Curiosity {
   std::array<double, 256> first_;
 };
 
-/// Step 3 of the method (Eq. 5, 7): one uniform draw settles everything. This is how many equally
-/// likely outcomes it has in a situation: the n_i + n_R motions not known as ineffective or, with
+/// Step 3 of the method (Eq. 5, 7): one uniform draw settles everything. It comes from
+/// 0 ... draw_count - 1, each as likely: the n_i + n_R motions not known as ineffective or, with
 /// nothing left of these, all of M.
-inline int outcome_count(const MotorMemory& memory) noexcept {
+inline int draw_count(const MotorMemory& memory) noexcept {
   const int left = memory.effective_count() + memory.unexplored_count();
   return left > 0 ? left : memory.motion_count();
 }
 
-/// Eq. 7: op = sigma O + (1 - sigma) C', where C' is 0 for a motion whose curiosity is not active.
-inline double op(double orientation, double curiosity, double sigma) noexcept {
-  return sigma * orientation + (1.0 - sigma) * curiosity;
-}
+/// The place of the effective motion with the largest op (Eq. 7), the first in M_i among equals,
+/// where only the curiosity of effective motion `curious` is active.
+int winner(const MotorMemory& memory, int curious, double sigma,
+           const Curiosity& curiosity) noexcept;
 
-/// What each outcome, 0 <= outcome < outcome_count, means: the place of the motion to execute. The
-/// first n_R name an unexplored motion, and that one is explored: probability n_R / (n_i + n_R),
-/// uniform within RM_i. Each other one names an effective motion, whose curiosity is active, and
-/// the largest op (Eq. 7) wins, the first in M_i among equals. With nothing left to draw from, it
-/// is any motion, all of them ineffective. So the list that the place belongs to says why.
-inline int choose_motion(const MotorMemory& memory, int outcome, double sigma,
+/// What each draw, 0 <= draw < draw_count, means: the place of the motion to execute. The first n_R
+/// name an unexplored motion, and that one is explored: probability n_R / (n_i + n_R), uniform
+/// within RM_i. Each other one names an effective motion, whose curiosity is active, and the winner
+/// is exploited. With nothing left to draw from, it is any motion, all of them ineffective. So the
+/// list that the place belongs to says why.
+inline int choose_motion(const MotorMemory& memory, int draw, double sigma,
                          const Curiosity& curiosity) noexcept {
   const int n = memory.effective_count(), unexplored = memory.unexplored_count();
-  if (outcome < unexplored) return memory.tried_count() + outcome;
-  if (n == 0) return memory.place_of(outcome);
-
-  const int curious = outcome - unexplored;
-  const double active = curiosity(memory.times_learned(curious));
-  int winner = 0;
-  double highest = -1.0;
-  for (int j = 0; j < n; ++j) {
-    const double value = op(memory.orientation(j), j == curious ? active : 0.0, sigma);
-    if (value > highest) {
-      highest = value;
-      winner = j;
-    }
-  }
-  return winner;
+  if (draw < unexplored) return memory.tried_count() + draw;
+  if (n == 0) return memory.place_of(draw);
+  return winner(memory, draw - unexplored, sigma, curiosity);
 }
 
 /// The motion at a place, and why it was chosen.

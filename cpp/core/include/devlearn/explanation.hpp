@@ -36,8 +36,8 @@ struct ChoiceTrace {
 Explanation explain(SituationId situation, const MotorMemory& memory, double sigma,
                     const Curiosity& curiosity);
 
-/// Explains the choice that `outcome` of the draw led to.
-ChoiceTrace trace(SituationId situation, const MotorMemory& memory, int outcome, double sigma,
+/// Explains the choice that a draw led to.
+ChoiceTrace trace(SituationId situation, const MotorMemory& memory, int draw, double sigma,
                   const Curiosity& curiosity);
 
 /// A table for people, a line a motion.

@@ -196,7 +196,7 @@ class Learner {
   int pending_place_ = -1;  // where its motion stands
   // The last choice: the block as it was, and what was drawn.
   std::vector<std::byte> last_block_;
-  int last_outcome_ = -1;
+  int last_draw_ = -1;
 
   std::int64_t explored_count_ = 0;
   std::int64_t effective_count_ = 0;

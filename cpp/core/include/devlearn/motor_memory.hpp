@@ -56,6 +56,8 @@ class MotorMemory {
   int motion(int place) const noexcept { return motions_[place]; }
   /// o_ij of effective motion j, the one at place j.
   double orientation(int j) const noexcept { return orientation_[j]; }
+  /// o_ij of all of them, n_i values.
+  const double* orientations() const noexcept { return orientation_; }
   /// n_ij of effective motion j.
   std::uint32_t times_learned(int j) const noexcept { return times_learned_[j]; }
 
@@ -79,20 +81,7 @@ class MotorMemory {
 
   /// Extension development, Eq. 10-13: the motion at `place` (unexplored, or ineffective when it is
   /// retried) becomes the last of M_i with orientation 1/(n+1); the others shrink by n/(n+1).
-  void extend(int place) noexcept {
-    const int n = effective_count();
-    if (list(place) == List::kIneffective) --sizes_[1];
-    // Eq. 10: M_i = [M_i, m].
-    move(motions_, place, n);
-    // Eq. 11
-    const double shrunk = static_cast<double>(n) / (n + 1);
-    for (int j = 0; j < n; ++j) orientation_[j] *= shrunk;
-    orientation_[n] = 1.0 / (n + 1);
-    // Eq. 12: curiosity follows from the count.
-    times_learned_[n] = 1;
-    // Eq. 13
-    ++sizes_[0];
-  }
+  void extend(int place) noexcept;
 
   /// The unexplored motion at `place` proved ineffective: to the end of M-bar_i.
   void reject(int place) noexcept {
@@ -107,40 +96,15 @@ class MotorMemory {
 
   /// Eq. 9 for effective motion k with D = 1 - exp(-eta SMF), -1 <= D < 1. A sole motion keeps its
   /// orientation 1 (at D = -1 the formula would be 0/0).
-  void orient(int k, double d) noexcept {
-    if (effective_count() == 1) return;
-    // The 1 of Eq. 9 is the sum of the orientations; taking the sum itself keeps rounding errors
-    // from piling up, for D < 0 multiplies them.
-    const double sum = orientation_sum();
-    const double chosen = orientation_[k];
-    const double change = chosen * d;
-    divide_orientations(sum + change);
-    orientation_[k] = (chosen + change) / (sum + change);
-  }
+  void orient(int k, double d) noexcept;
 
   /// Reduction development, Eq. 14-17: every motion whose orientation lies below 1/(3 n_i) moves
   /// to M-bar_i, the rest is renormalised and keeps its order. Returns how many moved.
-  int reduce() noexcept {
-    const int before = effective_count();
-    const double threshold = 1.0 / (3.0 * before);
-    for (int j = 0; j < effective_count();) {
-      if (orientation_[j] < threshold) {
-        remove_effective(j);
-      } else {
-        ++j;
-      }
-    }
-    const int reduced = before - effective_count();
-    if (reduced > 0) divide_orientations(orientation_sum());
-    return reduced;
-  }
+  int reduce() noexcept;
 
   /// Effective motion k moves to M-bar_i whatever its orientation; the rest is renormalised as in
   /// Eq. 14, whose 1 - o_ib is the sum of what remains.
-  void abandon(int k) noexcept {
-    remove_effective(k);
-    divide_orientations(orientation_sum());
-  }
+  void abandon(int k) noexcept;
 
   /// All of it.
   SituationMemory copy() const;
@@ -165,27 +129,8 @@ class MotorMemory {
     values[from] = carried;
   }
 
-  // Eq. 15-17: motion k leaves M_i for the end of M-bar_i; the motions after it move up, each with
-  // its own orientation and count.
-  void remove_effective(int k) noexcept {
-    const int last = effective_count() - 1;
-    move(motions_, k, tried_count() - 1);
-    move(orientation_, k, last);
-    move(times_learned_, k, last);
-    --sizes_[0];
-    ++sizes_[1];
-  }
-
-  // Added in order: a vectorised sum would depend on the machine.
-  double orientation_sum() const noexcept {
-    double sum = 0.0;
-    for (int j = 0; j < effective_count(); ++j) sum += orientation_[j];
-    return sum;
-  }
-
-  void divide_orientations(double divisor) noexcept {
-    for (int j = 0; j < effective_count(); ++j) orientation_[j] /= divisor;
-  }
+  void remove_effective(int k) noexcept;
+  void normalise() noexcept;
 
   std::uint16_t* sizes_;
   double* orientation_;
