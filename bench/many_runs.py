@@ -15,7 +15,8 @@ from typing import Any
 
 from devlearn import World
 from devlearn.experiments.runs import Journal, run_all
-from devlearn.paper import schedule
+from devlearn.paper.jobs import execute, job
+from devlearn.paper.schedule import preset
 
 
 def began(job: Mapping[str, Any]) -> dict[str, Any]:
@@ -41,14 +42,13 @@ def main() -> None:
     _, starts = timed(began, [{"n": n} for n in range(2)], 2)
     start_up = max(result["at"] for result in starts) - start
 
-    world, config = World.load("paper"), schedule.preset("paper")
-    jobs = [schedule.job(world, config, seed) for seed in range(1, 5)]
-    one = timed(schedule.execute, jobs, 1)[0] / len(jobs)
+    world, config = World.load("paper"), preset("paper")
+    jobs = [job(world, config, seed) for seed in range(1, 5)]
+    one = timed(execute, jobs, 1)[0] / len(jobs)
     count = max(4, 2 * int(1.1 * seconds / one))
-    jobs = [schedule.job(world, config, seed) for seed in range(1, count + 1)]
+    jobs = [job(world, config, seed) for seed in range(1, count + 1)]
     rates = {
-        f"runs/per_second_{workers}": count / timed(schedule.execute, jobs, workers)[0]
-        for workers in (2, 1)
+        f"runs/per_second_{workers}": count / timed(execute, jobs, workers)[0] for workers in (2, 1)
     }
     print(json.dumps({"runs/start_up": start_up, **rates}))
 

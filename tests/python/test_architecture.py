@@ -52,6 +52,8 @@ def test_the_help_of_the_command_line_loads_nothing_that_it_does_not_need():
     assert not {name for name in loaded if name.split(".")[0] in others}
     assert {name for name in loaded if name.startswith("devlearn.")} == {
         "devlearn.cli",
+        "devlearn.cli.reproduce",
+        "devlearn.cli.run",
         "devlearn.errors",
     }
 
@@ -116,3 +118,51 @@ def test_every_link_between_documents_leads_somewhere():
         if ":" not in target and not (path.parent / target).exists()
     }
     assert broken == set()
+
+
+def imported_by(path):
+    """What a file of the package imports: modules of others by name, its own from devlearn on."""
+    package = ("devlearn", *path.relative_to(PACKAGE).parts[:-1])
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level:
+            module = [*package[: len(package) + 1 - node.level], *filter(None, [node.module])]
+            yield from (".".join([*module, alias.name]) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield node.module
+
+
+# What the rooms of the package may know of each other, and who alone needs an extra's packages.
+ROOMS = {
+    "analysis": set(),
+    "plots": {"analysis"},
+    "experiments": set(),
+    "paper": {"analysis", "plots", "experiments"},
+    "cli": {"experiments", "paper"},
+}
+EXTRAS = {"matplotlib": "plots"}
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_of_the_package_knows_only_those_before_it(room):
+    files = list(PACKAGE.glob(f"{room}/*.py"))
+    assert files
+    others = "|".join(set(ROOMS) - {room})
+    known = {
+        match[1]
+        for path in files
+        for name in imported_by(path)
+        if (match := re.match(rf"devlearn\.({others})\b", name))
+    }
+    assert known <= ROOMS[room]
+
+
+@pytest.mark.parametrize("package", EXTRAS)
+def test_the_packages_of_an_extra_are_imported_in_one_room(package):
+    users = {
+        path.relative_to(PACKAGE).parts[0]
+        for path in PACKAGE.rglob("*.py")
+        if any(name.split(".")[0] == package for name in imported_by(path))
+    }
+    assert users == {EXTRAS[package]}

@@ -18,7 +18,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from .. import _core
+from .._files import code_fingerprint, made_folder
 from ..errors import FileError
 
 Job = Mapping[str, Any]
@@ -113,29 +113,6 @@ class Journal:
     def close(self) -> None:
         """Closes the file."""
         self._file.close()
-
-
-def made_folder(path: str | os.PathLike[str]) -> Path:
-    """The folder, made where it is missing. Raises FileError where nothing can be put into it."""
-    folder = Path(path)
-    allowed = "a folder that can be made and written to"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise FileError(str(folder), "", error.strerror, allowed) from error
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise FileError(str(folder), "", "no permission to write", allowed)
-    return folder
-
-
-def code_fingerprint() -> str:
-    """A hash of all code that a result depends on."""
-    digest = hashlib.sha256()
-    package = Path(__file__).parents[1]
-    files = [Path(_core.__file__), *sorted(package.rglob("*.py"))]
-    for file in files:
-        digest.update(file.read_bytes())
-    return digest.hexdigest()
 
 
 def run_all(

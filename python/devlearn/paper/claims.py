@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .schedule import Measures
+from .measures import Measures
 
 _PATH = Path(__file__).parent / "claims.json"
 _COMPARED = {">=": operator.ge, "<=": operator.le}

@@ -9,25 +9,19 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
+from pathlib import Path
 from typing import Any, NamedTuple
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.figure import Figure
 
 from .. import plots
 from .._core import Robot, Trial, TrialConfig, World, shortest_path
+from .._files import made_folder
 from ..analysis.episodes import find_entry_and_window, find_episodes
-from ..plots.style import BLACK, BLUE, STYLE, VERMILLION
-from ..record import Record
-from . import measures, schedule
-
-# Table 1 of the paper: steps of different rounds.
-PAPER_TABLE_1 = {
-    33: 194, 95: 177, 130: 165, 202: 164, 246: 153, 247: 151,
-    253: 154, 288: 152, 301: 155, 313: 150, 341: 149, 382: 149,
-}  # fmt: skip
-_WIDE = 7.2  # two journal columns [inches]
+from ..plots.panels import Figure, panels, shared_legend, write_picture
+from ..plots.style import BLACK, BLUE, VERMILLION, styled
+from ..record import Record, written_aside
+from . import measures, places, schedule, tables
 
 
 class Drawn(NamedTuple):
@@ -48,7 +42,8 @@ class Gallery:
     @cached_property
     def four(self) -> list[schedule.Run]:
         """Two rounds of free learning of seeds 1 to 4."""
-        return [schedule.run(self.world, self.config, seed, rounds=1) for seed in (1, 2, 3, 4)]
+        free = schedule.SECTION_VI.replace(rounds=1)
+        return [schedule.run(self.world, self.config, seed, free) for seed in (1, 2, 3, 4)]
 
     @cached_property
     def long(self) -> schedule.Run:
@@ -65,15 +60,15 @@ class Gallery:
         """Steps of the shortest path from the start."""
         return len(shortest_path(Robot(self.world, self.config.robot))) - 1
 
+    @styled
     def draw(self, number: int) -> list[Drawn]:
         """The figures of a number of the paper's; 0 stands for those beyond it."""
-        with mpl.rc_context(STYLE):
-            return FIGURES[number](self)
+        return FIGURES[number](self)
 
     # --- the paper's figures ----------------------------------------------------------------------
 
     def _world(self) -> list[Drawn]:
-        figure, ax = _panels(1, 1)
+        figure, ax = panels(1, 1)
         plots.plot_world(self.world, ax=ax[0], robot=self.config.robot)
         return [
             Drawn(
@@ -86,9 +81,9 @@ class Gallery:
         ]
 
     def _sef(self) -> list[Drawn]:
-        figure = Figure(figsize=(_WIDE, 3.4), layout="constrained")
-        plots.plot_sef_surface(self.world, ax=figure.add_subplot(1, 2, 1, projection="3d"))
-        plots.plot_sef(self.world, ax=figure.add_subplot(1, 2, 2))
+        figure, axes = panels(1, 2, projections=["3d"])
+        plots.plot_sef_surface(self.world, ax=axes[0])
+        plots.plot_sef(self.world, ax=axes[1])
         return [
             Drawn(
                 "fig04_sef",
@@ -110,7 +105,7 @@ class Gallery:
         ]
 
     def _counts(self) -> list[Drawn]:
-        figure, ax = _panels(1, 1, height=2.6, width=4.2)
+        figure, ax = panels(1, 1, height=2.6, width=4.2)
         record = self.four[0].first
         plots.plot_counts(record, ax=ax[0])
         late = measures.change_after(record.explored_count, 3000)
@@ -126,7 +121,7 @@ class Gallery:
     def _episodes(self) -> list[Drawn]:
         record = self.four[0].first
         found = find_episodes(record)
-        figure, ax = _panels(1, 1, height=2.8, width=4.8)
+        figure, ax = panels(1, 1, height=2.8, width=4.8)
         plots.plot_episodes(record, ax=ax[0])
         missing = "".join(sorted(kind for kind, where in found.items() if where is None))
         drawn = [
@@ -151,7 +146,7 @@ class Gallery:
                 drawn[0] = drawn[0]._replace(caption=drawn[0].caption + f" {kind} never occurs.")
                 continue
             phase, searched, (entry, window) = places[0]
-            figure, ax = _panels(1, 1, height=2.8, width=4.8)
+            figure, ax = panels(1, 1, height=2.8, width=4.8)
             plots.plot_episodes(searched, ax=ax[0], entry=entry, window=window)
             drawn.append(
                 Drawn(
@@ -183,13 +178,13 @@ class Gallery:
         numbers = paths.rounds["round"]
         settled = measures.settled_round(paths)
         chosen = [n for n in (3, 33, 95, 202, 341, int(numbers[-1])) if n in numbers]
-        figure, axes = _panels(2, 3, height=5.2)
+        figure, axes = panels(2, 3, height=5.2)
         for number, ax in zip(chosen, axes):
             entry = int(np.flatnonzero(numbers == number)[0])
             plots.plot_trajectory(paths, ax=ax, entry=entry, legend=False, title=False)
             ax.set_title(f"round {number}: {paths.rounds['steps'][entry]} steps")
-        _shared_legend(figure, axes)
-        rounds, ax = _panels(1, 1, height=2.8, width=4.8)
+        shared_legend(figure, axes)
+        rounds, ax = panels(1, 1, height=2.8, width=4.8)
         plots.plot_rounds(paths, ax=ax[0], shortest=self.shortest, settled=settled)
         seed = self.settled[0].trial.seed
         return [
@@ -208,11 +203,11 @@ class Gallery:
 
     def _habits(self) -> list[Drawn]:
         others = self.settled[1:]
-        figure, axes = _panels(1, len(others), height=3.2, width=4.8)
+        figure, axes = panels(1, len(others), height=3.2, width=4.8)
         for made, ax in zip(others, axes):
             plots.plot_trajectory(made.paths, ax=ax, entry=-1, legend=False, title=False)
             ax.set_title(f"seed {made.trial.seed}: {made.paths.rounds['steps'][-1]} steps")
-        _shared_legend(figure, axes)
+        shared_legend(figure, axes)
         return [
             Drawn(
                 "fig11_habits",
@@ -224,9 +219,9 @@ class Gallery:
     def _new_starts(self) -> list[Drawn]:
         learner = self.settled[0].trial.learner
         assert learner is not None
-        figure, axes = _panels(1, 4, height=2.4)
+        figure, axes = panels(1, 4, height=2.4)
         needed = []
-        for (pose, shortest), ax in zip(schedule.new_starts(self.world, self.config, 4), axes):
+        for (pose, shortest), ax in zip(places.new_starts(self.world, self.config, 4), axes):
             rounds = schedule.useful_round(self.world, self.config, learner, pose, shortest)
             if rounds is None:
                 plots.plot_world(self.world.with_start(pose), ax=ax, sonar=False, legend=False)
@@ -249,9 +244,9 @@ class Gallery:
     def _beyond(self) -> list[Drawn]:
         made = self.settled[0]
         assert made.trial.learner is not None
-        preferences, ax = _panels(1, 1, width=4.8, height=4.4)
+        preferences, ax = panels(1, 1, width=4.8, height=4.4)
         plots.plot_preferences(self.world, made.trial.learner, config=self.config, ax=ax[0])
-        kinds, ax = _panels(1, 1, width=4.2, height=4.2)
+        kinds, ax = panels(1, 1, width=4.2, height=4.2)
         plots.plot_trajectory(self.four[0].first, ax=ax[0])
         return [
             Drawn(
@@ -269,11 +264,11 @@ class Gallery:
         ]
 
     def _four_paths(self, records: Sequence[Record]) -> Figure:
-        figure, axes = _panels(1, 4, height=2.5)
+        figure, axes = panels(1, 4, height=2.5)
         for letter, record, ax in zip("abcd", records, axes):
             plots.plot_trajectory(record, ax=ax, legend=False, title=False)
             ax.set_title(f"({letter})")
-        _shared_legend(figure, axes)
+        shared_legend(figure, axes)
         return figure
 
 
@@ -292,29 +287,37 @@ FIGURES: Mapping[int, Callable[[Gallery], list[Drawn]]] = {
 }
 
 
+def save_figure(folder: Path, drawn: Drawn) -> list[Path]:
+    """Write a figure as PNG and SVG; returns the files. Raises FileError."""
+    made_folder(folder)
+    paths = [folder / f"{drawn.name}.{kind}" for kind in ("png", "svg")]
+    for path in paths:
+        with written_aside(path, "wb") as file:
+            write_picture(drawn.figure, file, path.suffix[1:], drawn.name)
+    return paths
+
+
 # --- statistics over the seeds --------------------------------------------------------------------
 
 
+@styled
 def draw_rounds_over_seeds(runs_by_preset: Mapping[str, Sequence[Mapping[str, Any]]]) -> Drawn:
     """Steps by round, median and 10th to 90th percentile of the runs, beside the paper's."""
-    with mpl.rc_context(STYLE):
-        figure, (ax,) = _panels(1, 1, width=4.8, height=3.0)
-        styles = [(BLUE, "-"), (VERMILLION, "--")]
-        for (name, runs), (color, line) in zip(runs_by_preset.items(), styles):
-            # Runs that were ended as hopeless count as failed from there on.
-            steps = np.array([padded(run["round_steps"]) for run in runs])
-            low, median, high = np.percentile(steps, [10, 50, 90], axis=0)
-            rounds = np.arange(3, 3 + len(median))
-            ax.fill_between(rounds, low, high, color=color, alpha=0.18, linewidth=0)
-            ax.plot(rounds, median, line, color=color, label=f"{name}: median, 10-90 %")
-        ax.plot(
-            list(PAPER_TABLE_1), list(PAPER_TABLE_1.values()), "o", color=BLACK,
-            markersize=3.5, label="Table 1 of the paper",
-        )  # fmt: skip
-        ax.set_yscale("log")
-        ax.set_xlabel("round")
-        ax.set_ylabel("steps of the round")
-        ax.legend()
+    figure, (ax,) = panels(1, 1, width=4.8, height=3.0)
+    styles = [(BLUE, "-"), (VERMILLION, "--")]
+    for (name, runs), (color, line) in zip(runs_by_preset.items(), styles):
+        low, median, high = tables.steps_over_runs(runs)
+        rounds = np.arange(3, 3 + len(median))
+        ax.fill_between(rounds, low, high, color=color, alpha=0.18, linewidth=0)
+        ax.plot(rounds, median, line, color=color, label=f"{name}: median, 10-90 %")
+    ax.plot(
+        list(tables.PAPER_TABLE_1), list(tables.PAPER_TABLE_1.values()), "o", color=BLACK,
+        markersize=3.5, label="Table 1 of the paper",
+    )  # fmt: skip
+    ax.set_yscale("log")
+    ax.set_xlabel("round")
+    ax.set_ylabel("steps of the round")
+    ax.legend()
     return Drawn(
         "rounds_over_seeds",
         figure,
@@ -322,59 +325,33 @@ def draw_rounds_over_seeds(runs_by_preset: Mapping[str, Sequence[Mapping[str, An
     )
 
 
+@styled
 def draw_sigmas(by_sigma: Mapping[float, Sequence[Mapping[str, Any]]]) -> Drawn:
     """When runs settle, and how long their last rounds are, by sigma."""
-    with mpl.rc_context(STYLE):
-        figure, axes = _panels(1, 2, height=2.8)
-        for ax, measure, label in zip(
-            axes,
-            ("settled_early", "last_steps"),
-            ("settled from round (603: not)", "steps, mean of last 20 rounds"),
-        ):
-            values = {
-                f"{sigma:g}": [run[measure] for run in runs] for sigma, runs in by_sigma.items()
-            }
-            plots.plot_distribution(values, ax=ax, ylabel=label)
-            ax.set_xlabel("sigma (Eq. 7)")
-        axes[1].set_yscale("log")
+    figure, axes = panels(1, 2, height=2.8)
+    for ax, measure, label in zip(
+        axes,
+        ("settled_early", "last_steps"),
+        ("settled from round (603: not)", "steps, mean of last 20 rounds"),
+    ):
+        values = {f"{sigma:g}": [run[measure] for run in runs] for sigma, runs in by_sigma.items()}
+        plots.plot_distribution(values, ax=ax, ylabel=label)
+        ax.set_xlabel("sigma (Eq. 7)")
+    axes[1].set_yscale("log")
     return Drawn("sigmas", figure, "The weight of orientation against curiosity, over all seeds.")
 
 
+@styled
 def draw_run(trial: Trial, paths: Record) -> Drawn:
     """One run at a glance: its last path, what it prefers, and the steps of its rounds."""
-    with mpl.rc_context(STYLE):
-        panels = 1 + (len(paths.rounds) > 0) * 2
-        figure, axes = _panels(1, panels, width=3.6 * panels, height=3.6)
-        if len(paths.rounds):
-            plots.plot_trajectory(paths, ax=axes[1], entry=-1)
-            plots.plot_rounds(paths, ax=axes[2], settled=measures.settled_round(paths))
-        if trial.learner is not None:
-            plots.plot_preferences(trial.world, trial.learner, config=trial.config, ax=axes[0])
+    count = 3 if len(paths.rounds) else 1
+    figure, axes = panels(1, count, width=3.6 * count, height=3.6)
+    if len(paths.rounds):
+        plots.plot_trajectory(paths, ax=axes[1], entry=-1)
+        plots.plot_rounds(paths, ax=axes[2], settled=measures.settled_round(paths))
+    if trial.learner is not None:
+        plots.plot_preferences(trial.world, trial.learner, config=trial.config, ax=axes[0])
     return Drawn("overview", figure, "One run: what it prefers, its last path, its rounds.")
-
-
-def padded(steps: Sequence[int]) -> list[int]:
-    """Steps of all rounds of a run; those it was not given as hopeless count as failed."""
-    missing = schedule.PATH_ROUNDS - len(steps)
-    return [*steps, *[schedule.STEP_LIMIT] * missing]
-
-
-def _panels(
-    rows: int, columns: int, *, width: float | None = None, height: float = 3.4
-) -> tuple[Figure, list[Any]]:
-    width = width or (_WIDE if columns > 1 else 3.5)
-    figure = Figure(figsize=(width, height), layout="constrained")
-    axes = figure.subplots(rows, columns, squeeze=False)
-    return figure, list(axes.flat)
-
-
-def _shared_legend(figure: Figure, axes: Sequence[Any]) -> None:
-    # One panel's counts of steps are not another's.
-    entries: dict[str, Any] = {}
-    for ax in axes:
-        for handle, label in zip(*ax.get_legend_handles_labels()):
-            entries.setdefault(label.split(" (")[0], handle)
-    figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=len(entries))
 
 
 def _or_never(step: int | None) -> str:

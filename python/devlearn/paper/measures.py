@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .._core import Event, Kind
 from ..record import Record
+
+Measures = dict[str, Any]  # of one run, by name
 
 NEAR_TARGET = 0.6  # [m]
 SETTLED_ROUNDS = 40

@@ -51,6 +51,7 @@ def write_report(
     Raises FileError.
     """
     folder = path.parent / "figures"
+    planned = schedule.SECTION_VI
     figures = [
         f"<h2>{'Beyond the paper' if number == 0 else f'Figure {number}'}</h2>"
         + "".join(_figure(folder, figure) for figure in group)
@@ -75,9 +76,9 @@ claim should fail; where it holds for the control too, the criterion says little
 {"".join(_figure(folder, figure) for figure in statistics)}
 {"".join(figures)}
 <h2>How it was made</h2>
-<p>A run is two rounds of free learning of {schedule.FREE_STEPS} steps, then up to
-{schedule.PATH_ROUNDS} rounds of path learning, each failed after {schedule.STEP_LIMIT} steps;
-a run ends early after {schedule.HOPELESS_ROUNDS} failed rounds in a row, and the rounds left out
+<p>A run is two rounds of free learning of {planned.free[0]} steps, then up to
+{planned.rounds} rounds of path learning, each failed after {planned.step_limit} steps;
+a run ends early after {planned.hopeless} failed rounds in a row, and the rounds left out
 count as failed in the statistics of steps. All numbers are in numbers.json.</p>
 <pre>{html.escape(_provenance(provenance))}</pre>
 </body></html>

@@ -9,12 +9,13 @@ import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from .. import _core
+from .._files import code_fingerprint
 from ..errors import FileError
-from ..experiments.runs import code_fingerprint
 from ..record import Record, provenance_of
+from .schedule import Schedule
 
 STATE = "state.safetensors"  # a trial's snapshot, with the record so far
 AT_ONCE = 1000  # steps between two looks at the clock and for Ctrl-C
@@ -22,24 +23,16 @@ SECONDS = 10.0  # between two saves
 SHARE = 0.05  # of the time at most that saving may take
 
 
-class Plan(NamedTuple):
-    """What is run: two rounds of free learning of ``steps``, then ``rounds`` of path learning."""
-
-    steps: int
-    rounds: int
-    step_limit: int
-    echoes: bool
-
-
 def run_to_the_end(
     folder: Path,
     world: _core.World,
     config: _core.TrialConfig,
     seed: int,
-    plan: Plan,
+    schedule: Schedule,
+    echoes: bool = False,
     save_every: int | None = None,
 ) -> tuple[_core.Trial, Record]:
-    """Runs the plan, from the state in ``folder`` where there is one.
+    """Runs the schedule, from the state in ``folder`` where there is one.
 
     The state is saved there every ``save_every`` steps; by default every ten seconds, and less
     often where that would take more than a twentieth of the time. Ctrl-C saves it and raises
@@ -49,24 +42,20 @@ def run_to_the_end(
     state = folder / STATE
     trial = _core.Trial(world, config, seed)
     whence = provenance_of(world, config, seed, trial.agent) | {
-        "run": plan._asdict(),
+        "run": {**schedule.to_dict(), "echoes": echoes},
         "code": code_fingerprint(),
     }
     parts: list[Record] = []
-    taken = 0  # steps of the present round
+    done = None
     if state.exists():
-        parts = [Record.load(state)]
-        _require_same(state, parts[0].provenance, whence)
+        done = Record.load(state)
+        _require_same(state, done.provenance, whence)
         trial = _core.Trial.load(state)
-        taken = int(parts[0].rounds["steps"][-1])
+        parts = [done]
 
     unsaved, saved, cost = 0, time.monotonic(), 0.0
     with _ctrl_c_noted() as asked:
-        while (
-            part := _advance(trial, plan, taken, min(AT_ONCE, save_every or AT_ONCE))
-        ) is not None:
-            goes_on = parts and part.rounds["round"][0] == parts[-1].rounds["round"][-1]
-            taken = len(part) + (taken if goes_on else 0)
+        for part in schedule.parts(trial, done, min(AT_ONCE, save_every or AT_ONCE), echoes=echoes):
             parts.append(part)
             unsaved += len(part)
             since = time.monotonic() - saved
@@ -84,20 +73,6 @@ def run_to_the_end(
     whole = Record.concatenate(parts)
     whole.provenance = {k: v for k, v in whence.items() if k not in ("run", "code")}
     return trial, whole
-
-
-def _advance(trial: _core.Trial, plan: Plan, taken: int, most: int) -> Record | None:
-    """The run's next steps, of one round; None at its end."""
-    free = trial.round <= 2
-    over = taken >= (plan.steps if free else plan.step_limit) or (trial.arrived and not free)
-    if trial.round == 0 or over:
-        if trial.round >= 2 + plan.rounds:
-            return None
-        trial.begin_round()
-        free, taken = trial.round <= 2, 0
-    if free:
-        return trial.run(min(most, plan.steps - taken), echoes=plan.echoes)
-    return trial.finish_round(min(most, plan.step_limit - taken), echoes=plan.echoes)
 
 
 def _require_same(state: Path, found: Mapping[str, Any], expected: Mapping[str, Any]) -> None:

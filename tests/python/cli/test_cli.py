@@ -17,7 +17,7 @@ import pytest
 from conftest import differences
 from devlearn import Record, TrialConfig, World, _core, cli
 from devlearn.experiments import runs
-from devlearn.paper import measures, schedule, survival
+from devlearn.paper import jobs, measures, schedule, survival, tables
 from devlearn.paper.claims import claims
 
 SHORT = ["--steps", "300", "--rounds", "3", "--step-limit", "200"]
@@ -153,7 +153,7 @@ def test_run_says_what_came_of_it(tmp_path, capsys):
 
 
 def test_the_same_command_makes_the_same_history(tmp_path, monkeypatch):
-    monkeypatch.setattr(cli, "_draw", lambda *_: None)
+    monkeypatch.setattr(cli.run, "_draw", lambda *_: None)
     for name in ("a", "b"):
         assert cli.main(["run", "paper", *SHORT, "--output", str(tmp_path / name)]) == 0
     a, b = (Record.load(tmp_path / name / "paths.npz") for name in ("a", "b"))
@@ -168,7 +168,7 @@ def run_config(tmp_path, *options):
 
 
 def test_presets_files_and_single_fields_make_the_configuration(tmp_path, monkeypatch):
-    monkeypatch.setattr(cli, "_draw", lambda *_: None)
+    monkeypatch.setattr(cli.run, "_draw", lambda *_: None)
     assert run_config(tmp_path) == TrialConfig.paper()
     assert run_config(tmp_path, "--preset", "step5") == TrialConfig.step5()
     own = TrialConfig.step5().replace(cell_size=0.5)
@@ -209,21 +209,21 @@ LONG = ["run", "paper", "--steps", "3000", "--rounds", "40", "--step-limit", "50
 def stopped_by_ctrl_c(line, monkeypatch, rounds):
     """Runs a line until that round has begun, and then sends Ctrl-C once."""
 
-    advance = survival._advance
+    parts = schedule.Schedule.parts
 
-    def stopped(trial, *arguments):
-        part = advance(trial, *arguments)
-        if trial.round == rounds:
-            os.kill(os.getpid(), signal.SIGINT)
-        return part
+    def stopped(self, trial, *arguments, **more):
+        for part in parts(self, trial, *arguments, **more):
+            if trial.round == rounds:
+                os.kill(os.getpid(), signal.SIGINT)
+            yield part
 
     with monkeypatch.context() as patch:
-        patch.setattr(survival, "_advance", stopped)
+        patch.setattr(schedule.Schedule, "parts", stopped)
         assert cli.main(line) == 130
 
 
 def test_a_run_stopped_by_ctrl_c_goes_on_when_called_again(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(cli, "_draw", lambda *_: None)
+    monkeypatch.setattr(cli.run, "_draw", lambda *_: None)
     line = [*LONG, "--echoes", "--output", str(tmp_path / "stopped")]
     state = tmp_path / "stopped" / "state.safetensors"
     steps = 0
@@ -252,7 +252,11 @@ def test_a_run_stopped_by_ctrl_c_goes_on_when_called_again(tmp_path, monkeypatch
     ("options", "says"),
     [
         (["--seed", "2"], "seed: got an unfinished run with 1; expected 2; finish that run"),
-        (["--steps", "2999"], "run.steps: got an unfinished run with 3000; expected 2999; finish"),
+        (
+            ["--steps", "2999"],
+            "run.free: got an unfinished run with [3000, 3000]; expected [2999",
+        ),
+        (["--hopeless", "7"], "run.hopeless: got an unfinished run with 20; expected 7; finish"),
         (["--echoes"], "run.echoes: got an unfinished run with False; expected True; finish"),
         (["--set", "learner.sigma=0.5"], "config.learner.sigma: got an unfinished run with 0.3"),
         (["--preset", "step5"], "config.learner.on_negative: got an unfinished run with abandon"),
@@ -301,10 +305,11 @@ def test_a_reader_who_leaves_is_no_error_of_ours(tmp_path):
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        (["--steps", -1], "--steps: got -1; expected at least 0"),
-        (["--rounds", -1], "--rounds: got -1; expected at least 0"),
-        (["--step-limit", 0], "--step-limit: got 0; expected at least 1"),
-        (["--save-every", 0], "--save-every: got 0; expected at least 1"),
+        (["--steps", -1], "Schedule.free: got -1; expected a whole number in [0, 2^40]"),
+        (["--rounds", -1], "Schedule.rounds: got -1; expected a whole number in [0, 2^30]"),
+        (["--step-limit", 0], "Schedule.step_limit: got 0; expected a whole number in [1, 2^40]"),
+        (["--hopeless", -1], "Schedule.hopeless: got -1; expected a whole number in [0, 2^30]"),
+        (["--save-every", 0], "--save-every: got 0; expected a whole number in [1, 2^40]"),
         (["--steps", 10**30], "expected a whole number"),
         (["--seed", -1], "seed: got -1; expected"),
         (["--seed", 2**64], "seed: got 18446744073709551616; expected"),
@@ -413,16 +418,13 @@ def small():
 
     with pytest.MonkeyPatch.context() as patch:
         for name, value in {
-            "FREE_STEPS": 3000, "STEP_LIMIT": 2500, "PATH_ROUNDS": 6, "CONTROL_ROUNDS": 1,
-            "SIMILAR_ROUNDS": 2, "SIMILAR_CONTROL_ROUNDS": 1, "NEW_START_ROUNDS": 4,
+            "SECTION_VI": schedule.Schedule((3000, 3000), rounds=6, step_limit=2500),
+            "CONTROL_ROUNDS": 1, "SIMILAR_ROUNDS": 2, "SIMILAR_CONTROL_ROUNDS": 1,
+            "NEW_START_ROUNDS": 4,
         }.items():  # fmt: skip
             patch.setattr(schedule, name, value)
-        short = {"rounds": 6, "free_steps": 3000, "step_limit": 2500}
-        for key, value in short.items():
-            patch.setitem(schedule.run.__kwdefaults__, key, value)
-        patch.setitem(schedule.job.__kwdefaults__, "rounds", 6)
         patch.setattr(measures, "settled_round", lambda record: int(record.rounds["round"][-1]))
-        patch.setattr(figures, "PAPER_TABLE_1", {4: 194, 8: 149})
+        patch.setattr(tables, "PAPER_TABLE_1", {4: 194, 8: 149})
         patch.setattr(runs, "code_fingerprint", lambda: "this code")  # whoever edits it meanwhile
         yield figures.Gallery()
 
@@ -576,7 +578,7 @@ def test_reproducing_again_runs_nothing_again(reproduced, small, monkeypatch, ca
 
     from devlearn.paper import figures
 
-    monkeypatch.setattr(schedule, "execute", never)
+    monkeypatch.setattr(jobs, "execute", never)
     monkeypatch.setattr(figures, "FIGURES", {})  # they take most of the time
     line = ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(folder)]
     assert cli.main(line) == 0
@@ -597,8 +599,8 @@ def test_reproduce_that_is_stopped_says_how_to_go_on(small, tmp_path, monkeypatc
             raise KeyboardInterrupt
         return execute(job)
 
-    execute = schedule.execute
-    monkeypatch.setattr(schedule, "execute", stopped)
+    execute = jobs.execute
+    monkeypatch.setattr(jobs, "execute", stopped)
     line = ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(tmp_path)]
     assert cli.main(line) == 130
     err = capsys.readouterr().err

@@ -11,12 +11,12 @@ import textwrap
 import time
 from pathlib import Path
 
-import devlearn
 import pytest
 from devlearn import FileError
 from devlearn.experiments import runs
 from devlearn.experiments.runs import Journal, run_all
-from devlearn.paper import schedule
+from devlearn.paper.jobs import execute, job
+from devlearn.paper.schedule import preset
 
 SOON = 10.0  # [s] what should happen at once, on a busy machine
 
@@ -61,12 +61,12 @@ def eventually(condition, seconds=SOON):
 
 
 def test_results_do_not_depend_on_the_number_of_workers_to_the_bit(paper, tmp_path):
-    config = schedule.preset("paper")
-    jobs = [schedule.job(paper, config, seed, rounds=2, shortest=113) for seed in (1, 2, 3)]
+    config = preset("paper")
+    jobs = [job(paper, config, seed, rounds=2, shortest=113) for seed in (1, 2, 3)]
     texts = []
     for workers in (1, 2, 3):
         journal = Journal(tmp_path / f"{workers}.jsonl")
-        texts.append(json.dumps(run_all(schedule.execute, jobs, journal, workers=workers)))
+        texts.append(json.dumps(run_all(execute, jobs, journal, workers=workers)))
         journal.close()
     assert texts[0] == texts[1] == texts[2]
     assert len({json.dumps(result) for result in json.loads(texts[0])}) == 3
@@ -119,11 +119,11 @@ def test_a_stopped_sweep_goes_on_without_repeating(tmp_path):
 
 
 def test_a_result_from_the_journal_is_the_result_as_it_was(paper, tmp_path):
-    jobs = [schedule.job(paper, schedule.preset("paper"), 1, rounds=1)]
+    jobs = [job(paper, preset("paper"), 1, rounds=1)]
     texts = []
     for _ in range(2):
         journal = Journal(tmp_path / "runs.jsonl")
-        texts.append(json.dumps(run_all(schedule.execute, jobs, journal, workers=1)))
+        texts.append(json.dumps(run_all(execute, jobs, journal, workers=1)))
         journal.close()
     assert texts[0] == texts[1]
     assert len((tmp_path / "runs.jsonl").read_text().splitlines()) == 1
@@ -180,26 +180,6 @@ def test_what_other_code_made_is_not_taken_for_a_result(tmp_path, monkeypatch):
     again = Journal(path)
     assert again.find({"n": 0}) == {"square": 0}
     again.close()
-
-
-def test_every_python_file_of_the_package_and_the_extension_make_the_fingerprint(
-    tmp_path, monkeypatch
-):
-    for name in ("experiments", "paper"):
-        (tmp_path / name).mkdir()
-    measures = tmp_path / "paper" / "measures.py"
-    measures.write_text("one")
-    extension = tmp_path / "_core.so"
-    extension.write_bytes(b"one")
-    monkeypatch.setattr(runs, "__file__", str(tmp_path / "experiments" / "runs.py"))
-    monkeypatch.setattr(runs._core, "__file__", str(extension))
-    prints = [runs.code_fingerprint(), runs.code_fingerprint()]
-    assert prints[0] == prints[1]
-    measures.write_text("another")
-    prints.append(runs.code_fingerprint())
-    extension.write_bytes(b"two")
-    prints.append(runs.code_fingerprint())
-    assert len(set(prints)) == 3
 
 
 def test_jobs_that_differ_in_any_value_are_different(journal):
@@ -356,22 +336,3 @@ def test_the_bar_counts_what_is_done_and_begins_with_what_was_found(tmp_path, mo
     assert all(bar.startswith("squares ") for bar in shown)
     assert [bar.count("█") for bar in shown] == [15, 22, 30]
     assert shown[-1].endswith("\n")
-
-
-# --- folders --------------------------------------------------------------------------------------
-
-
-def test_a_folder_is_made_with_those_above_it_and_may_be_there_already(tmp_path):
-    for _ in range(2):
-        assert runs.made_folder(str(tmp_path / "a" / "b")).is_dir()
-
-
-def test_a_folder_that_takes_nothing_is_refused(tmp_path, monkeypatch):
-    (tmp_path / "file").write_text("")
-    for path in (tmp_path / "file", tmp_path / "file" / "below"):
-        with pytest.raises(FileError) as caught:
-            runs.made_folder(path)
-        assert caught.value.file == str(path)
-    monkeypatch.setattr(os, "access", lambda path, mode: not mode & os.W_OK)  # root may all
-    with pytest.raises(devlearn.FileError, match="permission"):
-        runs.made_folder(tmp_path)

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 from devlearn import TrialConfig
-from devlearn.paper import schedule
+from devlearn.paper import jobs, places
 from devlearn.paper.claims import Results, aggregate, claims, judge
 
 FIELDS = {"id", "section", "claim", "measure", "unit", "aggregate", "criterion", "control"}
@@ -197,10 +197,10 @@ def test_real_runs_give_every_claim_a_figure_and_a_control(paper):
     config = TrialConfig.paper()
 
     def run(agent, seed, **more):
-        job = schedule.job(paper, config, seed, agent=agent, rounds=6, shortest=113, **more)
-        return schedule.execute(job)
+        job = jobs.job(paper, config, seed, agent=agent, rounds=6, shortest=113, **more)
+        return jobs.execute(job)
 
-    starts = schedule.new_starts(paper, config, 1)
+    starts = places.new_starts(paper, config, 1)
     runs = [run("learner", seed, starts=starts) for seed in (1, 2)]
     given = copy.deepcopy(results(runs, [run("random", 1)]))
     for key, verdict in by_id(given).items():

@@ -1,0 +1,211 @@
+"""``devlearn run``: one experiment in any world."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .._core import TrialConfig
+    from ..paper.schedule import Run, Schedule
+
+_DESCRIPTION = """\
+One experiment: two rounds of free learning, then path learning by rounds until
+the target is reached. Prints what came of it and writes the records, a table
+of the rounds and, with matplotlib, a picture. Its state is saved as it goes:
+stopped by Ctrl-C or a kill, it goes on from there when called again."""
+_EPILOG = """\
+examples:
+  devlearn run paper
+  devlearn run office --seed 7 --rounds 200 --output out/office
+  devlearn run my_world.json --preset step5 --set learner.sigma=0.5
+"""
+
+
+def add_to(verbs: Any) -> None:
+    """Adds the verb to the command line's."""
+    parser = verbs.add_parser(
+        "run",
+        help="run one experiment in any world",
+        description=_DESCRIPTION,
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("world", help=f"a world file, or one that ships: {', '.join(_shipped())}")
+    parser.add_argument(
+        "--preset", default="paper", metavar="NAME", help="paper (default) or step5"
+    )
+    parser.add_argument(
+        "--config", metavar="FILE", help="a TrialConfig as JSON, instead of a preset"
+    )
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="FIELD=VALUE",
+        help="change one field of it, such as learner.sigma=0.5; as often as you like",
+    )  # fmt: skip
+    parser.add_argument(
+        "--seed", type=int, default=1, metavar="N", help="of all draws (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--steps", type=int, default=10_000, metavar="N",
+        help="steps of each of the two rounds of free learning (default: %(default)s)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--rounds", type=int, default=100, metavar="N",
+        help="rounds of path learning (default: %(default)s)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--step-limit", type=int, default=10_000, metavar="N",
+        help="steps after which a round of path learning has failed (default: %(default)s)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--hopeless", type=int, default=20, metavar="N",
+        help="end early once the last N rounds of path learning all failed; 0: never "
+        "(default: %(default)s)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--save-every", type=int, metavar="N",
+        help="save the state every N steps (default: every ten seconds or so)",
+    )  # fmt: skip
+    parser.add_argument("--echoes", action="store_true", help="record the sonars' echoes, too")
+    parser.add_argument("--csv", action="store_true", help="write the records as CSV, too")
+    parser.add_argument(
+        "--output", default="out/run", metavar="DIR", help="folder to write (default: %(default)s)"
+    )
+    parser.set_defaults(verb=_main)
+
+
+def _shipped() -> list[str]:
+    return sorted(path.stem for path in (Path(__file__).parents[1] / "worlds").glob("*.json"))
+
+
+def _main(options: argparse.Namespace) -> int:
+    from .. import _core
+    from .._files import made_folder
+    from ..errors import InvalidValue
+    from ..paper import schedule, survival
+    from ..record import written_aside
+
+    if options.save_every is not None and not 1 <= options.save_every <= 2**40:
+        raise InvalidValue("--save-every", options.save_every, "a whole number in [1, 2^40]")
+    free, rounds = (options.steps, options.steps), options.rounds
+    planned = schedule.Schedule(free, rounds, options.step_limit, options.hopeless)
+    world = _core.World.load(options.world)
+    config = schedule.preset(options.preset)
+    if options.config is not None:
+        config = _read_config(options.config)
+    config = _changed(config, options.set)
+    _core.Trial(world, config, options.seed)  # refuses what cannot run
+    folder = made_folder(options.output)
+    try:
+        trial, whole = survival.run_to_the_end(
+            folder, world, config, options.seed, planned, options.echoes, options.save_every
+        )
+    except KeyboardInterrupt:
+        print(f"what is finished is kept in {folder}; the same command goes on from there",
+              file=sys.stderr)  # fmt: skip
+        raise
+    made = schedule.run_of(whole, trial)
+    records = {"free_1": made.first, "free_2": made.second, "paths": made.paths}
+    for name, record in records.items():
+        record.save(folder / f"{name}.npz")
+        if options.csv:
+            record.to_csv(folder / f"{name}.csv")
+
+    _tell(made, world.name or options.world, planned)
+    with written_aside(folder / "rounds.csv", "w") as file:
+        file.write("round,steps,arrived\n")
+        file.writelines(
+            f"{r['round']},{r['steps']},{int(r['arrived'])}\n" for r in made.paths.rounds
+        )
+    _draw(folder, made)
+    survival.forget(folder)
+    print(f"written: {folder}{os.sep}")
+    return 0
+
+
+def _tell(made: Run, world: str, planned: Schedule) -> None:
+    from ..paper import measures
+
+    print(f"world {world}, seed {made.trial.seed}")
+    for i, record in enumerate((made.first, made.second), 1):
+        arrival = measures.first_arrival(record) if len(record) else None
+        reached = "the target was never reached"
+        if arrival is not None:
+            reached = f"target reached at step {arrival}"
+        print(f"free learning, round {i}: {reached}")
+    steps, arrived = made.paths.rounds["steps"], made.paths.rounds["arrived"]
+    if len(steps):
+        settled = measures.settled_round(made.paths)
+        print(
+            f"path learning: {arrived.sum()} of {len(steps)} rounds arrived; "
+            f"first {steps[0]} steps, last {steps[-1]}; "
+            + ("not settled" if settled is None else f"settled from round {settled} on")
+        )
+    if len(steps) < planned.rounds:
+        print(f"ended early: the last {planned.hopeless} rounds never arrived (--hopeless)")
+
+
+def _draw(folder: Path, made: Run) -> None:
+    from ..errors import MissingExtra
+
+    try:
+        from ..paper.figures import draw_run, save_figure
+    except MissingExtra as error:
+        print(f"no figures: {error}", file=sys.stderr)
+        return
+    save_figure(folder, draw_run(made.trial, made.paths))
+
+
+def _read_config(path: str) -> TrialConfig:
+    from .._core import TrialConfig
+    from ..errors import FileError, InvalidValue
+
+    allowed = "a TrialConfig as JSON"
+    try:
+        fields = json.loads(Path(path).read_text(encoding="utf-8"))
+        return TrialConfig.from_dict(fields)
+    except InvalidValue as error:
+        raise FileError(path, error.quantity, error.value, error.allowed) from error
+    except TypeError as error:
+        raise FileError(path, "", "a value of another type", allowed) from error
+    except OSError as error:
+        raise FileError(path, "", error.strerror, allowed) from error
+    except (ValueError, RecursionError) as error:
+        raise FileError(path, "", error, allowed) from error
+
+
+def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
+    from ..errors import InvalidValue
+
+    fields = config.to_dict()
+    for change in changes:
+        name, equals, text = change.partition("=")
+        *outer, last = name.split(".")
+        place: Any = fields
+        for part in outer:
+            place = place.get(part) if isinstance(place, dict) else None
+        if not equals or not isinstance(place, dict) or last not in place:
+            known = ", ".join(_names(config.to_dict()))
+            raise InvalidValue("--set", repr(change), f"FIELD=VALUE, where FIELD is one of {known}")
+        try:
+            place[last] = json.loads(text)
+        except ValueError:
+            place[last] = text
+    try:
+        return config.from_dict(fields)
+    except TypeError as error:
+        allowed = "a value of each field's type, such as 0.5, true or [1, 2]"
+        raise InvalidValue("--set", repr(" ".join(changes)), allowed) from error
+
+
+def _names(fields: Mapping[str, Any], outer: str = "") -> Iterator[str]:
+    for name, value in fields.items():
+        if isinstance(value, dict):
+            yield from _names(value, f"{outer}{name}.")
+        else:
+            yield outer + name
