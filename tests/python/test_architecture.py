@@ -141,7 +141,7 @@ ROOMS = {
     "paper": {"analysis", "plots", "experiments"},
     "cli": {"experiments", "paper"},
 }
-EXTRAS = {"matplotlib": "plots"}
+EXTRAS = {"matplotlib": "plots", "jinja2": "paper", "tqdm": "experiments"}
 
 
 @pytest.mark.parametrize("room", ROOMS)

@@ -38,12 +38,15 @@ def _main(options: argparse.Namespace) -> int:
 
     if options.workers is not None and options.workers < 1:
         raise InvalidValue("--workers", options.workers, "at least 1")
-    from ..paper import reproduce as reproduction
 
     if options.figure is not None:
-        for path in reproduction.draw_figure(options.output, options.figure):
+        from ..paper.figures import draw_figure
+
+        for path in draw_figure(options.output, options.figure):
             print(path)
         return 0
+    from ..paper import reproduce as reproduction
+
     try:
         verdicts = reproduction.reproduce(
             options.output, seeds=options.seeds, workers=options.workers, say=_say
@@ -56,12 +59,14 @@ def _main(options: argparse.Namespace) -> int:
         held = sum(verdict.holds for verdict in judged)
         print(f"preset {preset}: {held} of {len(judged)} claims hold")
         for verdict in judged:
+            fixed = verdict.claim.get("by_definition", {}).get("part")
             criterion = verdict.claim["criterion"]
             print(
                 f"  {'holds   ' if verdict.holds else 'does not'}  {verdict.claim['id']:28} "
                 f"{verdict.figure.value:10.4g}  {criterion['op']} {criterion['bound']:<6g}  "
                 f"control {verdict.control.value:10.4g}"
                 f"{'  (holds, too)' if verdict.control_holds else ''}"
+                f"{f'  ({fixed}: by definition)' if fixed else ''}"
             )
     print(f"report: {Path(options.output) / 'report.html'}")
     return 0

@@ -8,62 +8,23 @@ import json
 import multiprocessing
 import os
 import signal
-import sys
 import threading
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 from .._files import code_fingerprint, made_folder
-from ..errors import FileError
+from ..errors import FileError, MissingExtra
+
+try:
+    from tqdm import tqdm
+except ImportError as error:
+    raise MissingExtra("devlearn.experiments.runs", "tqdm", "experiments") from error
 
 Job = Mapping[str, Any]
 Result = dict[str, Any]
-
-
-class Progress:
-    """A bar on standard error where a person watches, nothing where it is piped."""
-
-    def __init__(self, what: str, total: int, done: int = 0) -> None:
-        self._what, self._total, self._done = what, total, done
-        self._began, self._before = time.monotonic(), done
-        self._shown = sys.stderr.isatty()
-
-    def __enter__(self) -> Progress:
-        self._draw()
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if self._shown:
-            sys.stderr.write("\n")
-
-    def advance(self) -> None:
-        """One more is done."""
-        self._done += 1
-        self._draw()
-
-    def _draw(self) -> None:
-        if not self._shown:
-            return
-        width = 30
-        filled = width * self._done // max(1, self._total)
-        finished = self._done - self._before
-        left = ""
-        if finished and self._done < self._total:
-            seconds = (time.monotonic() - self._began) / finished * (self._total - self._done)
-            left = f", about {seconds:.0f} s left"
-        bar = "█" * filled + "·" * (width - filled)
-        sys.stderr.write(f"\r\x1b[K{self._what} {bar} {self._done}/{self._total}{left}")
-        sys.stderr.flush()
 
 
 class Journal:
@@ -131,11 +92,13 @@ def run_all(
     """
     results = [journal.find(job) for job in jobs]
     missing = [i for i, result in enumerate(results) if result is None]
-    with Progress(what, len(jobs), len(jobs) - len(missing)) as progress:
+    done = len(jobs) - len(missing)
+    # Where nobody watches, it is silent.
+    with tqdm(desc=what, total=len(jobs), initial=done, unit="run", disable=None) as progress:
         for i, result in _completed(function, jobs, missing, workers or os.cpu_count() or 1):
             journal.add(jobs[i], result)
             results[i] = result
-            progress.advance()
+            progress.update()
     return [result for result in results if result is not None]
 
 

@@ -1,7 +1,10 @@
 """The paper's claims, each with the criterion it is held to and a control that should fail it.
 
-``claims.json`` was written before the first run. A claim's value is its measure, aggregated over
-the runs as it says:
+``claims.json`` was committed before the first run of this program, and its criteria have not
+changed since; approximate figures of an independent study of the same rules, on the same world,
+were known when they were written. ``by_definition`` marks the part, claim or control, that comes
+out as it does whatever the runs give. A claim's value is its measure, aggregated over the runs as
+it says:
 
 ========== =====================================================================================
 aggregate  value

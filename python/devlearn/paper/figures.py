@@ -7,6 +7,7 @@ settled, each on a path of its own, since the paper shows such runs. All are of 
 from __future__ import annotations
 
 import itertools
+import os
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -18,6 +19,7 @@ from .. import plots
 from .._core import Robot, Trial, TrialConfig, World, shortest_path
 from .._files import made_folder
 from ..analysis.episodes import find_entry_and_window, find_episodes
+from ..errors import InvalidValue
 from ..plots.panels import Figure, panels, shared_legend, write_picture
 from ..plots.style import BLACK, BLUE, VERMILLION, styled
 from ..record import Record, written_aside
@@ -295,6 +297,18 @@ def save_figure(folder: Path, drawn: Drawn) -> list[Path]:
         with written_aside(path, "wb") as file:
             write_picture(drawn.figure, file, path.suffix[1:], drawn.name)
     return paths
+
+
+def draw_figure(output: str | os.PathLike[str], number: int) -> list[Path]:
+    """Draw one figure of the paper (0: those beyond it), and nothing else; returns the files.
+
+    Raises InvalidValue, FileError.
+    """
+    if number not in FIGURES:
+        known = ", ".join(map(str, FIGURES))
+        raise InvalidValue("figure", number, f"one of {known} (0: what the paper does not draw)")
+    folder = Path(output) / "figures"
+    return [path for drawn in Gallery().draw(number) for path in save_figure(folder, drawn)]
 
 
 # --- statistics over the seeds --------------------------------------------------------------------

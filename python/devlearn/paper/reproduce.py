@@ -87,15 +87,6 @@ def reproduce(
     return verdicts
 
 
-def draw_figure(output: str | os.PathLike[str], number: int) -> list[Path]:
-    """Draw one figure of the paper (0: those beyond it), and nothing else; returns the files."""
-    if number not in figures.FIGURES:
-        known = ", ".join(map(str, figures.FIGURES))
-        raise InvalidValue("figure", number, f"one of {known} (0: what the paper does not draw)")
-    folder = Path(output) / "figures"
-    return [path for drawn in figures.Gallery().draw(number) for path in save_figure(folder, drawn)]
-
-
 # --- runs -----------------------------------------------------------------------------------------
 
 

@@ -104,6 +104,7 @@ def verdict_as_values(verdict: Verdict) -> dict[str, Any]:
         "holds": verdict.holds,
         "control": of(verdict.control),
         "control_holds": verdict.control_holds,
+        "by_definition": verdict.claim.get("by_definition", {}).get("part"),
     }
 
 

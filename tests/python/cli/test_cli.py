@@ -183,6 +183,15 @@ def test_presets_files_and_single_fields_make_the_configuration(tmp_path, monkey
     assert changed == own.replace(learner=learner, walls_count=True, clearance_source="sonar")
 
 
+@pytest.mark.parametrize(("options", "rounds"), [([], 20), (["--hopeless", "0"], 25)])
+def test_a_run_that_is_hopeless_ends_early_and_says_so(tmp_path, capsys, options, rounds):
+    line = ["run", "empty", "--steps", "9", "--rounds", "25", "--step-limit", "2", *options]
+    assert cli.main([*line, "--output", str(tmp_path)]) == 0
+    assert len(Record.load(tmp_path / "paths.npz").rounds) == rounds
+    early = "ended early: the last 20 rounds never arrived (--hopeless)\n"
+    assert (early in capsys.readouterr().out) == (rounds < 25)
+
+
 @pytest.mark.parametrize("steps", [0, 50])
 @pytest.mark.parametrize("rounds", [0, 1])
 def test_no_steps_and_no_rounds_are_a_run_of_nothing(tmp_path, capsys, steps, rounds):
@@ -472,10 +481,10 @@ def test_one_figure_is_drawn_by_its_number_and_nothing_else(tmp_path):
 
 @pytest.mark.parametrize("number", NAMES)
 def test_every_number_draws_its_figures(small, tmp_path, capsys, monkeypatch, number):
-    from devlearn.paper import figures, reproduce
+    from devlearn.paper import figures
 
     monkeypatch.setattr(figures, "Gallery", lambda: small)  # whose runs are made once
-    monkeypatch.setattr(reproduce, "save_figure", lambda folder, drawn: [folder / drawn.name])
+    monkeypatch.setattr(figures, "save_figure", lambda folder, drawn: [folder / drawn.name])
     assert cli.main(["reproduce", "--figure", str(number), "--output", str(tmp_path)]) == 0
     printed = [Path(line) for line in capsys.readouterr().out.splitlines()]
     assert {path.parent for path in printed} == {tmp_path / "figures"}
@@ -554,14 +563,20 @@ def test_the_report_needs_nothing_but_itself(reproduced):
 
 
 def test_the_report_tells_each_claim_with_its_control(reproduced):
-    from html import escape
+    from markupsafe import escape
 
     folder, out = reproduced
     page = (folder / "report.html").read_text(encoding="utf-8")
     flat = " ".join(page.split())
     for claim in claims():
         for field in ("claim", "measure", "control"):
-            assert escape(claim[field]) in flat, claim["id"]
+            assert str(escape(claim[field])) in flat, claim["id"]
+        if "by_definition" in claim:
+            part, reason = claim["by_definition"].values()
+            assert str(escape(f"By definition, the {part}: {reason}")) in flat
+            assert re.search(rf"{claim['id']} .*\({part}: by definition\)", out)
+    marked = sum("by_definition" in claim for claim in claims())
+    assert flat.count('<span class="spread">by definition</span>') == 2 * marked
     for held in re.findall(r"preset \w+: (\d+ of \d+ claims hold)", out):
         assert held in flat
     assert "nan" not in re.sub(r"base64,[^\"]+", "", page).lower().split()

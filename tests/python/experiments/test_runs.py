@@ -4,6 +4,7 @@ import io
 import json
 import multiprocessing
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -331,8 +332,6 @@ def test_the_bar_counts_what_is_done_and_begins_with_what_was_found(tmp_path, mo
     monkeypatch.setattr(sys, "stderr", Terminal())
     run_all(square, jobs, journal, workers=1, what="squares")
     journal.close()
-    shown = sys.stderr.getvalue().split("\r\x1b[K")[1:]
-    assert [bar.split()[2].rstrip(",\n") for bar in shown] == ["2/4", "3/4", "4/4"]
-    assert all(bar.startswith("squares ") for bar in shown)
-    assert [bar.count("█") for bar in shown] == [15, 22, 30]
-    assert shown[-1].endswith("\n")
+    shown = sys.stderr.getvalue().split("\r")[1:]
+    assert re.match(r"squares: +50%.* 2/4 ", shown[0])
+    assert re.match(r"squares: +100%.* 4/4 .*\n$", shown[-1])
