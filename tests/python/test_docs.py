@@ -40,7 +40,11 @@ def test_the_programs_of_the_guide_compile_against_core(tmp_path, program):
         pytest.fail("no C++ compiler at hand")
     source = tmp_path / "guide.cpp"
     source.write_text(program)
-    command = [compiler, "-std=c++17", "-fsyntax-only", "-I", ROOT / "cpp/core/include", source]
+    eigen = subprocess.run(
+        ["pkg-config", "--cflags", "eigen3"], capture_output=True, text=True, check=True
+    )
+    include = ["-I", ROOT / "cpp/core/include", *eigen.stdout.split()]
+    command = [compiler, "-std=c++17", "-fsyntax-only", *include, source]
     subprocess.run(command, check=True)
 
 

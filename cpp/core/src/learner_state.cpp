@@ -17,13 +17,6 @@ namespace {
                      allowed);
 }
 
-void require_size(const char* quantity, std::size_t size, std::size_t expected) {
-  if (size != expected) {
-    throw InvalidValue("memory." + std::string(quantity), std::to_string(size) + " values",
-                       std::to_string(expected) + " values");
-  }
-}
-
 // The laws of one situation's lists: they partition M, and what is unexplored is ascending.
 void require_partition(const LearnerMemory& all, std::size_t i, int motion_count,
                        std::vector<bool>& seen) {
@@ -69,13 +62,13 @@ void require_laws(const LearnerState& state) {
   const LearnerMemory& all = state.memory;
   const int motion_count = state.config.motion_count;
   const std::size_t situations = all.situation.size();
-  require_size("effective_count", all.effective_count.size(), situations);
-  require_size("ineffective_count", all.ineffective_count.size(), situations);
-  require_size("motions", all.motions.size(), situations * motion_count);
+  require_size("memory.effective_count", all.effective_count.size(), situations);
+  require_size("memory.ineffective_count", all.ineffective_count.size(), situations);
+  require_size("memory.motions", all.motions.size(), situations * motion_count);
   const auto effective =
       std::accumulate(all.effective_count.begin(), all.effective_count.end(), std::size_t{0});
-  require_size("orientation", all.orientation.size(), effective);
-  require_size("times_learned", all.times_learned.size(), effective);
+  require_size("memory.orientation", all.orientation.size(), effective);
+  require_size("memory.times_learned", all.times_learned.size(), effective);
 
   std::vector<bool> seen(static_cast<std::size_t>(motion_count));
   std::size_t first = 0;

@@ -1,5 +1,6 @@
 #include "devlearn/math.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -25,6 +26,9 @@ constexpr double kSine[] = {-1.0 / 1307674368000, 1.0 / 6227020800, -1.0 / 39916
 constexpr double kCosine[] = {
     1.0 / 20922789888000, -1.0 / 87178291200, 1.0 / 479001600, -1.0 / 3628800,
     1.0 / 40320,          -1.0 / 720,         1.0 / 24};
+
+// The same within a degree of 0.
+constexpr double kArctangent[] = {1.0 / 9, -1.0 / 7, 1.0 / 5, -1.0 / 3};
 
 // Of a heading in [0, 360) degrees.
 constexpr Direction unit_vector(double heading) noexcept {
@@ -97,6 +101,26 @@ Direction direction(double heading) noexcept {
   const int degrees = static_cast<int>(wrapped);
   return degrees == wrapped ? kWholeDegrees[static_cast<std::size_t>(degrees)]
                             : unit_vector(wrapped);
+}
+
+double heading_of(Direction vector) noexcept {
+  // Near enough to say from which whole degree to measure.
+  const double x = std::abs(vector.x), y = std::abs(vector.y);
+  const double least = std::min(x, y), most = std::max(x, y);
+  if (most == 0.0) return 0.0;
+  const double tangent = least / most;
+  double near = tangent * (45.0 + 15.64 * (1.0 - tangent));
+  if (y > x) near = 90.0 - near;
+  if (vector.x < 0.0) near = 180.0 - near;
+  if (vector.y < 0.0) near = 360.0 - near;
+  const int degrees = static_cast<int>(near + 0.5);
+
+  // The rest, less than a degree, by its tangent t: arctan t as a Taylor series.
+  const Direction whole = kWholeDegrees[static_cast<std::size_t>(degrees % 360)];
+  const double t =
+      (whole.x * vector.y - whole.y * vector.x) / (whole.x * vector.x + whole.y * vector.y);
+  const double rest = t + t * (t * t * polynomial(t * t, kArctangent));
+  return wrapped_heading(degrees + rest * (180.0 / kPi));
 }
 
 }  // namespace devlearn

@@ -21,4 +21,11 @@ void refuse_count(std::string_view quantity, long long value, long long low, lon
       "a whole number in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
 }
 
+void require_size(std::string_view quantity, std::size_t size, std::size_t expected) {
+  if (size != expected) {
+    throw InvalidValue(std::string(quantity), std::to_string(size) + " values",
+                       std::to_string(expected) + " values");
+  }
+}
+
 }  // namespace devlearn

@@ -6,6 +6,21 @@
 #include "devlearn/math.hpp"
 
 namespace devlearn {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+}  // namespace
+
+Pose Pose::from_radians(double x, double y, double yaw) {
+  require_finite("yaw", yaw);
+  return {x, y, wrapped_heading(yaw / kPi * 180.0)};
+}
+
+double Pose::yaw() const noexcept {
+  const double wrapped = wrapped_heading(heading);
+  return (wrapped > 180.0 ? wrapped - 360.0 : wrapped) / 180.0 * kPi;
+}
 
 SituationGrid::SituationGrid(double width, double height, int columns, int rows, int headings)
     : width_(width), height_(height), columns_(columns), rows_(rows), headings_(headings) {
@@ -20,9 +35,29 @@ SituationGrid::SituationGrid(double width, double height, int columns, int rows,
 }
 
 SituationId SituationGrid::situation(double x, double y, double heading) const {
+  require_inside(x, y, heading);
+  return id_of(x, y, heading);
+}
+
+void SituationGrid::situations(const double* poses, std::size_t stride, std::size_t count,
+                               SituationId* ids) const {
+  require_each(count, [&](std::size_t i) {
+    const double* const pose = poses + i * stride;
+    require_inside(pose[0], pose[1], pose[2]);
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* const pose = poses + i * stride;
+    ids[i] = id_of(pose[0], pose[1], pose[2]);
+  }
+}
+
+void SituationGrid::require_inside(double x, double y, double heading) const {
   require_in("x", x, 0.0, width_, "m");
   require_in("y", y, 0.0, height_, "m");
   require_finite("heading", heading);
+}
+
+SituationId SituationGrid::id_of(double x, double y, double heading) const noexcept {
   const int column = std::min(static_cast<int>(x / cell_width_), columns_ - 1);
   const int row = std::min(static_cast<int>(y / cell_height_), rows_ - 1);
   // The nearest bin; adding a half before rounding down would itself round, up across a border.

@@ -196,3 +196,35 @@ TEST_CASE(
   CHECK(wrapped_heading(-5e-324) == 0.0);
   CHECK(wrapped_heading(kLargest) == std::fmod(kLargest, 360.0));
 }
+
+TEST_CASE("the heading of a vector is that which its unit vector has") {
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    REQUIRE(heading_of(direction(degrees)) == degrees);
+  }
+  constexpr long double kPi = 3.14159265358979323846264338327950288L;
+  Random random(9, "vectors");
+  for (int i = 0; i < 200000; ++i) {
+    const double length = std::ldexp(1.0, static_cast<int>(random.index(200)) - 100);
+    const double x = length * (2.0 * random.uniform() - 1.0);
+    const double y = length * (2.0 * random.uniform() - 1.0);
+    long double truth = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
+    if (truth < 0.0L) truth += 2.0L * kPi;
+    const double heading = heading_of({x, y});
+    REQUIRE(heading >= 0.0);
+    REQUIRE(heading < 360.0);
+    REQUIRE(std::abs(static_cast<double>(heading - truth * 180.0L / kPi)) <= 1.2e-13);
+  }
+}
+
+TEST_CASE("the heading of a vector along an axis is exact, and that of none is 0") {
+  for (const double length : {1e-100, 0.3, 1.0, 7e100}) {
+    CHECK(heading_of({length, 0.0}) == 0.0);
+    CHECK(heading_of({length, -0.0}) == 0.0);
+    CHECK(heading_of({0.0, length}) == 90.0);
+    CHECK(heading_of({-length, 0.0}) == 180.0);
+    CHECK(heading_of({-length, -0.0}) == 180.0);
+    CHECK(heading_of({0.0, -length}) == 270.0);
+  }
+  CHECK(heading_of({1.0, -1e-300}) == 0.0);
+  CHECK(heading_of({0.0, 0.0}) == 0.0);
+}

@@ -149,3 +149,27 @@ TEST_CASE("poses are equal when place and heading are") {
   CHECK(Pose{1, 2, 3} != Pose{1, 0, 3});
   CHECK(Pose{1, 2, 3} != Pose{1, 2, 0});
 }
+
+TEST_CASE("a heading in radians comes in as degrees in [0, 360), and goes out in (-pi, pi]") {
+  constexpr double kPi = 3.14159265358979323846;
+  CHECK(Pose::from_radians(1.0, 2.0, 0.0) == Pose{1.0, 2.0, 0.0});
+  CHECK(Pose::from_radians(1.0, 2.0, kPi / 2.0).heading == 90.0);
+  CHECK(Pose::from_radians(1.0, 2.0, -kPi / 2.0).heading == 270.0);
+  CHECK(Pose::from_radians(1.0, 2.0, -kPi).heading == 180.0);
+  CHECK(Pose::from_radians(1.0, 2.0, kPi / 6.0).heading == 30.0);
+  CHECK(Pose{0.0, 0.0, 180.0}.yaw() == kPi);
+  CHECK(Pose{0.0, 0.0, -180.0}.yaw() == kPi);
+  CHECK(Pose{0.0, 0.0, 270.0}.yaw() == -kPi / 2.0);
+  Random random(11, "yaws");
+  for (int i = 0; i < 100000; ++i) {
+    const double yaw = kPi * (1.0 - 2.0 * random.uniform());
+    const double back = Pose::from_radians(0.0, 0.0, yaw).yaw();
+    REQUIRE(back > -kPi);
+    REQUIRE(back <= kPi);
+    REQUIRE(std::abs(back - yaw) <= 4e-15);
+    const double turns = Pose::from_radians(0.0, 0.0, yaw + 20.0 * kPi).yaw();
+    REQUIRE(std::abs(turns - yaw) <= 4e-14);
+  }
+  check_refused([] { Pose::from_radians(0.0, 0.0, kInfinity); }, "yaw", "inf");
+  check_refused([] { Pose::from_radians(0.0, 0.0, kNaN); }, "yaw", "nan");
+}

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace devlearn {
 
 /// Step 2 of the method, the state evaluation function (Eq. 6): how good it is to be here.
@@ -17,6 +19,11 @@ struct StateEvaluation {
   /// goal_distance: d_g in [0, 1e6] m. obstacle_distance: d_o >= 0 m; infinite where there is no
   /// obstacle. Throws InvalidValue.
   double operator()(double goal_distance, double obstacle_distance) const;
+
+  /// The same of many pairs, written into sef. Where it throws, nothing was written.
+  /// devlearn/eigen.hpp has this for arrays.
+  void evaluate(const double* goal_distances, const double* obstacle_distances, std::size_t count,
+                double* sef) const;
 
   /// Throws InvalidValue unless every parameter lies in its range.
   void validate() const;

@@ -16,6 +16,10 @@ struct Direction {
 /// too: reduction to [-45, 45] degrees is exact, so multiples of 90 degrees are exact.
 Direction direction(double heading) noexcept;
 
+/// The reverse: the heading of a vector of any length but 0 [degrees], in [0, 360), to a few units
+/// in the last place; exactly a whole number of degrees where direction() made the vector of one.
+double heading_of(Direction vector) noexcept;
+
 /// The heading brought into [0, 360) degrees; exact for every finite heading.
 double wrapped_heading(double heading) noexcept;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace devlearn {
@@ -13,6 +14,12 @@ struct Pose {
   double x = 0.0;        ///< of the robot's centre [m]
   double y = 0.0;        ///< of the robot's centre [m]
   double heading = 0.0;  ///< counter-clockwise from the x axis [degrees]
+
+  /// The pose whose heading is yaw [radians, counter-clockwise from the x axis], brought into
+  /// [0, 360) degrees. Throws InvalidValue unless yaw is finite.
+  static Pose from_radians(double x, double y, double yaw);
+  /// The heading in (-pi, pi] radians.
+  double yaw() const noexcept;
 };
 
 inline bool operator==(const Pose& a, const Pose& b) noexcept {
@@ -36,6 +43,11 @@ class SituationGrid {
   /// [degrees]. Throws InvalidValue.
   SituationId situation(double x, double y, double heading) const;
 
+  /// The same of many: pose i is poses[stride i] (x), [stride i + 1] (y), [stride i + 2] (heading).
+  /// Where it throws, no id was written. devlearn/eigen.hpp has this for a matrix of poses.
+  void situations(const double* poses, std::size_t stride, std::size_t count,
+                  SituationId* ids) const;
+
   /// The pose at the middle of a situation's cell and heading bin. Throws InvalidValue unless
   /// 0 <= situation < count().
   Pose centre(SituationId situation) const;
@@ -50,6 +62,9 @@ class SituationGrid {
   int headings() const noexcept { return headings_; }  ///< heading bins
 
  private:
+  void require_inside(double x, double y, double heading) const;
+  SituationId id_of(double x, double y, double heading) const noexcept;
+
   double width_, height_;
   int columns_, rows_, headings_;
   double cell_width_, cell_height_, heading_step_;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <string>
 #include <string_view>
 
 #include "devlearn/error.hpp"
@@ -40,6 +42,21 @@ inline void require_finite(std::string_view quantity, double value) {
 inline void require_count(std::string_view quantity, long long value, long long low,
                           long long high) {
   if (value < low || value > high) refuse_count(quantity, value, low, high);
+}
+
+/// Throws InvalidValue unless there are so many values.
+void require_size(std::string_view quantity, std::size_t size, std::size_t expected);
+
+/// What require(i) refuses of many values, 0 <= i < count, is refused with its place i.
+template <typename Require>
+void require_each(std::size_t count, const Require& require) {
+  std::size_t i = 0;
+  try {
+    for (; i < count; ++i) require(i);
+  } catch (const InvalidValue& error) {
+    throw InvalidValue(error.quantity() + "[" + std::to_string(i) + "]", error.value(),
+                       error.allowed());
+  }
 }
 
 }  // namespace devlearn

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "devlearn/eigen.hpp"
+#include "devlearn/robot.hpp"
+#include "devlearn/world.hpp"
+
+namespace devlearn {
+
+/// As devlearn/eigen.hpp, for worlds and robots.
+
+/// d_o of many points, one a column [m]: World::clearance of each.
+inline void fill_clearances(const World& world, const Eigen::Ref<const Eigen::Matrix2Xd>& points,
+                            Eigen::Ref<Eigen::ArrayXd> clearances, bool walls_count = false) {
+  require_size("clearances", static_cast<std::size_t>(clearances.size()),
+               static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    clearances(i) = world.clearance({points(0, i), points(1, i)}, walls_count);
+  }
+}
+
+/// Robot::sonar: sonar_count echoes [m].
+inline void fill_echoes(const Robot& robot, const Pose& pose, Eigen::Ref<Eigen::ArrayXd> echoes) {
+  require_size("echoes", static_cast<std::size_t>(echoes.size()),
+               static_cast<std::size_t>(robot.def().sonar_count));
+  robot.sonar(pose, echoes.data());
+}
+
+/// A polygon whose corners are the columns [m].
+inline Polygon to_polygon(const Eigen::Ref<const Eigen::Matrix2Xd>& corners) {
+  Polygon polygon;
+  polygon.corners.reserve(static_cast<std::size_t>(corners.cols()));
+  for (Eigen::Index i = 0; i < corners.cols(); ++i) {
+    polygon.corners.push_back({corners(0, i), corners(1, i)});
+  }
+  return polygon;
+}
+
+}  // namespace devlearn
