@@ -48,6 +48,8 @@ class Schedule:
     trapped stays so: in [0, 2^30]; 0: never."""
 
     def __post_init__(self) -> None:
+        if not isinstance(self.free, (list, tuple)):
+            raise InvalidValue("Schedule.free", repr(self.free), "a list of whole numbers")
         object.__setattr__(self, "free", tuple(self.free))
         for steps in self.free:
             _require("Schedule.free", steps, 0, 40)

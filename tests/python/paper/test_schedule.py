@@ -115,7 +115,7 @@ def test_a_schedule_goes_on_from_any_step_at_which_its_trial_was_saved(tmp_path,
 @pytest.mark.parametrize(
     ("field", "values"),
     [
-        ("free", [(-1,), (10, 2**40 + 1), (1.0,), (True,)]),
+        ("free", [5, "5", (-1,), (10, 2**40 + 1), (1.0,), (True,)]),
         ("rounds", [-1, 2**30 + 1, 1.5, None, "3"]),
         ("step_limit", [0, 2**40 + 1, 1.5]),
         ("hopeless", [-1, 2**30 + 1, False]),
