@@ -45,12 +45,17 @@ def refusal(capsys, *arguments):
 
 
 @pytest.fixture
-def without_matplotlib(tmp_path):
-    """An environment in which matplotlib is not installed."""
-    shim = tmp_path / "shim" / "matplotlib"
-    shim.mkdir(parents=True)
-    (shim / "__init__.py").write_text("raise ModuleNotFoundError(\"No module named 'matplotlib'\")")
-    return {"PYTHONPATH": str(shim.parent)}
+def without(tmp_path):
+    """Makes an environment in which these packages are not installed."""
+
+    def environment(*packages):
+        for package in packages:
+            shim = tmp_path / "shim" / package
+            shim.mkdir(parents=True)
+            (shim / "__init__.py").write_text("raise ModuleNotFoundError('hidden')")
+        return {"PYTHONPATH": str(tmp_path / "shim")}
+
+    return environment
 
 
 # --- in general -----------------------------------------------------------------------------------
@@ -202,8 +207,9 @@ def test_no_steps_and_no_rounds_are_a_run_of_nothing(tmp_path, capsys, steps, ro
     assert "target was never reached" in capsys.readouterr().out
 
 
-def test_run_needs_no_matplotlib(tmp_path, without_matplotlib):
-    done = command("run", "paper", *SHORT, "--output", tmp_path / "out", **without_matplotlib)
+def test_run_needs_no_package_of_an_extra(tmp_path, without):
+    extras = without("matplotlib", "tqdm", "jinja2")
+    done = command("run", "paper", *SHORT, "--output", tmp_path / "out", **extras)
     assert done.returncode == 0
     assert len(Record.load(tmp_path / "out" / "paths.npz").rounds) == 3
     assert re.fullmatch(
@@ -408,13 +414,25 @@ def test_reproduce_refuses_in_one_line_what_cannot_be(tmp_path, capsys, options,
     assert not (tmp_path / "out").exists()
 
 
-def test_reproduce_without_matplotlib_says_what_to_install(tmp_path, without_matplotlib):
-    done = command("reproduce", "--output", tmp_path / "out", **without_matplotlib)
+@pytest.mark.parametrize(
+    ("package", "extra"),
+    [("matplotlib", "plots"), ("tqdm", "experiments"), ("jinja2", "experiments")],
+)
+def test_reproduce_without_a_package_says_what_to_install(tmp_path, without, package, extra):
+    done = command("reproduce", "--output", tmp_path / "out", **without(package))
     assert done.returncode == 1
     assert re.fullmatch(
-        r"devlearn: .*pip install '\.\[plots\]' in devlearn's sources\n", done.stderr
+        rf"devlearn: .* needs {package}, which is not installed: pip install {package}, or "
+        rf"pip install '\.\[{extra}\]' in devlearn's sources\n",
+        done.stderr,
     )
     assert not (tmp_path / "out").exists()
+
+
+def test_one_figure_needs_the_extra_for_plots_only(tmp_path, without):
+    extras = without("tqdm", "jinja2")
+    done = command("reproduce", "--figure", 2, "--output", tmp_path, **extras)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 # --- reproduce ------------------------------------------------------------------------------------
