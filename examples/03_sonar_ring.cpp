@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "devlearn/eigen.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/evaluation.hpp"
 #include "devlearn/learner.hpp"
@@ -22,21 +23,22 @@ constexpr double kTurns[] = {-60.0, -30.0, 0.0, 30.0, 60.0};
 constexpr int kBeams = 8;                        // of the ring
 constexpr double kNearest = 0.02, kRange = 1.5;  // echoes count in [kNearest, kRange] m
 struct Circle {
-  double x, y, radius;  // [m]
+  Eigen::Vector2d centre;  // [m]
+  double radius;           // [m]
 };
-constexpr Circle kRoom{2.0, 2.0, 1.9};
-constexpr Circle kPillars[] = {{1.3, 1.2, 0.25}, {2.6, 1.4, 0.2}, {1.6, 2.7, 0.3}};
-constexpr double kBeaconX = 3.1, kBeaconY = 2.9;
+const Circle kRoom{{2.0, 2.0}, 1.9};
+const Circle kPillars[] = {{{1.3, 1.2}, 0.25}, {{2.6, 1.4}, 0.2}, {{1.6, 2.7}, 0.3}};
+const Eigen::Vector2d kBeacon(3.1, 2.9);
 constexpr int kTicks = 3000, kSeeds = 5;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr devlearn::StateEvaluation kSef{};
 
 // Distance along a ray to a circle: to its near side, from inside to its far side.
-double ray(double x, double y, devlearn::Direction h, const Circle& circle) {
-  const double dx = circle.x - x, dy = circle.y - y;
-  const double along = dx * h.x + dy * h.y;
-  const double gap = dx * dx + dy * dy - circle.radius * circle.radius;
+double ray(const Eigen::Vector2d& from, const Eigen::Vector2d& ahead, const Circle& circle) {
+  const Eigen::Vector2d there = circle.centre - from;
+  const double along = there.dot(ahead);
+  const double gap = there.squaredNorm() - circle.radius * circle.radius;
   const double root = along * along - gap;
   if (root < 0.0) return kInfinity;
   const double distance = gap > 0.0 ? along - std::sqrt(root) : along + std::sqrt(root);
@@ -45,31 +47,29 @@ double ray(double x, double y, devlearn::Direction h, const Circle& circle) {
 
 struct Robot {
   using Echoes = std::array<double, 3>;
-  struct Bearing {
-    double distance, ahead, left;
-  };
 
   devlearn::Random& random;
-  std::array<double, kBeams> readings;
-  double x = 0.0, y = 0.0, heading = 0.0;
+  Eigen::ArrayXd readings = Eigen::ArrayXd::Constant(kBeams, kRange);
+  Eigen::Vector2d place;
+  double heading = 0.0;
 
-  explicit Robot(devlearn::Random& source) : random(source) {
-    readings.fill(kRange);
-    place_anywhere();
-  }
+  explicit Robot(devlearn::Random& source) : random(source) { place_anywhere(); }
 
   void place_anywhere() {
     heading = 360.0 * random.uniform();
-    x = y = 0.0;
-    while (!free(x, y)) {
-      x = 4.0 * random.uniform();
-      y = 4.0 * random.uniform();
+    place.setZero();
+    while (!free(place)) {
+      place.x() = 4.0 * random.uniform();
+      place.y() = 4.0 * random.uniform();
     }
   }
 
-  static bool free(double x, double y) {
+  // The transform from the robot's frame, x ahead and y to the left, into the room's.
+  Eigen::Isometry2d frame() const { return devlearn::to_isometry({place.x(), place.y(), heading}); }
+
+  static bool free(const Eigen::Vector2d& place) {
     const auto squared = [&](const Circle& circle) {
-      return (x - circle.x) * (x - circle.x) + (y - circle.y) * (y - circle.y);
+      return (place - circle.centre).squaredNorm();
     };
     if (squared(kRoom) >= (kRoom.radius - kRadius) * (kRoom.radius - kRadius)) return false;
     return std::all_of(std::begin(kPillars), std::end(kPillars), [&](const Circle& pillar) {
@@ -80,11 +80,9 @@ struct Robot {
   // Turns, then drives ahead; true where it bumped into something and stayed.
   bool move(int motion) {
     heading = devlearn::wrapped_heading(heading + kTurns[motion]);
-    const devlearn::Direction h = devlearn::direction(heading);
-    const double next_x = x + kStep * h.x, next_y = y + kStep * h.y;
-    if (!free(next_x, next_y)) return true;
-    x = next_x;
-    y = next_y;
+    const Eigen::Vector2d next = place + kStep * frame().linear().col(0);
+    if (!free(next)) return true;
+    place = next;
     return false;
   }
 
@@ -100,9 +98,10 @@ struct Robot {
   }
 
   Echoes pings(double beam_heading) {
-    const devlearn::Direction h = devlearn::direction(beam_heading);
-    double distance = ray(x, y, h, kRoom);
-    for (const Circle& pillar : kPillars) distance = std::min(distance, ray(x, y, h, pillar));
+    const devlearn::Direction beam = devlearn::direction(beam_heading);
+    const Eigen::Vector2d ahead(beam.x, beam.y);
+    double distance = ray(place, ahead, kRoom);
+    for (const Circle& pillar : kPillars) distance = std::min(distance, ray(place, ahead, pillar));
     Echoes echoes;
     for (double& echo : echoes) {
       const double luck = random.uniform(), noise = 0.02 * (random.uniform() - 0.5);
@@ -115,7 +114,7 @@ struct Robot {
   // The door: keeps what can be believed; false where the ring said nothing at all.
   bool listen() {
     bool heard = false;
-    std::array<double, kBeams> next;
+    Eigen::ArrayXd next(kBeams);
     const auto ring = driver();
     for (int beam = 0; beam < kBeams; ++beam) {
       std::vector<double> believable;
@@ -124,32 +123,27 @@ struct Robot {
         if (kNearest <= echo && echo <= kRange) believable.push_back(echo);  // never NaN
       }
       std::sort(believable.begin(), believable.end());
-      next[beam] = believable.empty() ? kRange : believable[believable.size() / 2];
+      next(beam) = believable.empty() ? kRange : believable[believable.size() / 2];
     }
     if (heard) readings = next;
     return heard;
   }
 
-  // How far the beacon is, how far ahead and how far to the left.
-  Bearing beacon() const {
-    const devlearn::Direction h = devlearn::direction(heading);
-    const double dx = kBeaconX - x, dy = kBeaconY - y;
-    return {std::sqrt(dx * dx + dy * dy), dx * h.x + dy * h.y, dy * h.x - dx * h.y};
-  }
+  double beacon_distance() const { return (kBeacon - place).norm(); }
+
+  // The beacon in the robot's frame: how far ahead, how far to the left.
+  Eigen::Vector2d beacon() const { return frame().linear().transpose() * (kBeacon - place); }
 
   // In which eighth of the circle the beacon lies, and which front beams hear something.
   int situation() const {
-    const Bearing b = beacon();
-    const int eighth =
-        4 * (b.ahead > 0.0) + 2 * (b.left > 0.0) + (std::abs(b.left) > std::abs(b.ahead));
-    const bool right = readings[7] < 0.2, front = readings[0] < 0.2, left = readings[1] < 0.2;
+    const Eigen::Vector2d b = beacon();
+    const int eighth = 4 * (b.x() > 0.0) + 2 * (b.y() > 0.0) + (std::abs(b.y()) > std::abs(b.x()));
+    const bool right = readings(7) < 0.2, front = readings(0) < 0.2, left = readings(1) < 0.2;
     return 8 * eighth + 4 * right + 2 * front + left;
   }
 
   // Eq. 6, with the clearance that a real robot has: least echo + radius.
-  double evaluation() const {
-    return kSef(beacon().distance, *std::min_element(readings.begin(), readings.end()) + kRadius);
-  }
+  double evaluation() const { return kSef(beacon_distance(), readings.minCoeff() + kRadius); }
 };
 
 struct Result {
@@ -179,7 +173,7 @@ Result run(int seed, bool learns) {
 
     const bool late = tick >= kTicks - 1000;
     result.bumps += late && bumped;
-    if (robot.beacon().distance < 0.15) {
+    if (robot.beacon_distance() < 0.15) {
       result.found += late;
       robot.place_anywhere();
       before.reset();  // it was carried there
