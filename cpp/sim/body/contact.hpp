@@ -1,38 +1,48 @@
 #pragma once
 
-#include <optional>
+#include <box2d/box2d.h>
+
+#include <vector>
 
 #include "devlearn/robot.hpp"
+#include "devlearn/situation.hpp"
 #include "devlearn/world.hpp"
-#include "world/surfaces.hpp"
+#include "world/geometry.hpp"
 
-// How a drive along surfaces comes out, as Box2D has it.
+// How a drive comes out where there is something to touch, as Box2D has it.
 namespace devlearn {
-
-/// The least number of parts of a drive so short that none goes deeper than Box2D's slop.
-int substeps_of(const RobotDef& robot);
 
 /// Velocity iterations of Box2D's solver: few do, but not where surfaces wedge the body.
 constexpr int kFewIterations = 8, kManyIterations = 60;
+/// Its position iterations.
+constexpr int kPositionIterations = 3;
+
+/// A drive in Box2D's terms, its origin where the body begins: the outcome depends on nothing that
+/// happened before.
+struct Scene {
+  /// Of all surfaces that a body at a pose can touch within a step along a heading.
+  Scene(const World& world, const RobotDef& robot, const Pose& pose, double heading);
+
+  std::vector<b2EdgeShape> edges;
+  std::vector<b2CircleShape> circles;
+  b2CircleShape body;
+  b2Vec2 velocity;
+  int substeps;   // so many that none leads deeper than Box2D's slop
+  float substep;  // [s]
+
+  static constexpr float kDensity = 1.0f;  // of the body; no outcome depends on it
+
+ private:
+  void add(const Edge& edge, Point from, double reach);
+  void add(const Circle& circle, Point from, double reach);
+};
 
 struct Drive {
   Point moved;           ///< from where it began
   bool touched = false;  ///< anything, at any time
 };
 
-/// How far from where a drive begins something may lie that it touches [m].
-double reach_of(const RobotDef& robot);
-
-/// Drives from a point along a heading, in a Box2D world of its own that is made of what is near
-/// (Surfaces::around that point, up to reach_of): the outcome depends on nothing that happened
-/// before.
-Drive drive_in_box2d(const Surroundings& near, const RobotDef& robot, Point from, double heading,
-                     int substeps, int iterations);
-
-/// The same to the bit, by Box2D's own arithmetic for one disc that does not turn, without its
-/// bookkeeping. Nothing where the body touches several things at once so far from where it began
-/// that Box2D may have sorted them anew.
-std::optional<Drive> drive_directly(const Surroundings& near, const RobotDef& robot, Point from,
-                                    double heading, int substeps, int iterations);
+/// Drives in a Box2D world of its own.
+Drive drive_in_box2d(const Scene& scene, int iterations);
 
 }  // namespace devlearn

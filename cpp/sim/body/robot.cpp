@@ -5,12 +5,12 @@
 #include <string>
 
 #include "body/contact.hpp"
+#include "body/direct_contact.hpp"
 #include "body/kinematics.hpp"
 #include "body/sonars.hpp"
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
-#include "world/surfaces.hpp"
 
 namespace devlearn {
 namespace {
@@ -83,12 +83,10 @@ Robot::Move Robot::step(const Pose& pose, int motion) const {
   if (way_is_free(*world_, def_, pose, straight)) return {straight, false};
 
   require_place(pose);
-  const Point from{pose.x, pose.y};
-  const Surroundings near = world_->surfaces().around(from, reach_of(def_));
-  const int substeps = substeps_of(def_);
+  const Scene scene(*world_, def_, pose, heading);
   for (const int iterations : {kFewIterations, kManyIterations}) {
-    auto drive = drive_directly(near, def_, from, heading, substeps, iterations);
-    if (!drive) drive = drive_in_box2d(near, def_, from, heading, substeps, iterations);
+    auto drive = drive_directly(scene, iterations);
+    if (!drive) drive = drive_in_box2d(scene, iterations);
     const Pose end =
         drive->touched ? Pose{pose.x + drive->moved.x, pose.y + drive->moved.y, heading} : straight;
     const double depth = iterations == kFewIterations ? kShallow : kSlop;

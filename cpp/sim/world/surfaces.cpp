@@ -231,10 +231,6 @@ bool Surfaces::Outline::contains(Point p) const noexcept {
   return inside;
 }
 
-double Surfaces::wall_distance(Point p) const noexcept {
-  return std::max(0.0, std::min({p.x, width_ - p.x, p.y, height_ - p.y}));
-}
-
 bool Surfaces::keep_clear_of(Point p, Point q, double room) const noexcept {
   if (std::min(wall_distance(p), wall_distance(q)) <= room) return false;
   if (inside_outline(leaf(p), p)) return false;
@@ -250,7 +246,7 @@ bool Surfaces::keep_clear_of(Point p, Point q, double room) const noexcept {
   return clear;
 }
 
-Surroundings Surfaces::around(Point p, double reach) const {
+std::vector<std::uint32_t> Surfaces::around(Point p, double reach) const {
   std::vector<std::uint32_t> found;
   found.reserve(32);
   const auto reached = [&](std::uint32_t surface) {
@@ -264,16 +260,7 @@ Surroundings Surfaces::around(Point p, double reach) const {
     if (reached(kWalls + i)) found.push_back(kWalls + i);
   });
   std::sort(found.begin(), found.end());
-
-  Surroundings near;
-  const auto circles = std::lower_bound(found.begin(), found.end(), edges_.size());
-  near.edges.reserve(static_cast<std::size_t>(circles - found.begin()));
-  near.circles.reserve(static_cast<std::size_t>(found.end() - circles));
-  for (auto i = found.begin(); i != circles; ++i) near.edges.push_back(edges_[*i]);
-  for (auto i = circles; i != found.end(); ++i) {
-    near.circles.push_back(circles_[*i - edges_.size()]);
-  }
-  return near;
+  return found;
 }
 
 }  // namespace devlearn

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -8,12 +9,6 @@
 #include "world/geometry.hpp"
 
 namespace devlearn {
-
-/// What is near a point, in the order of Surfaces::edges and Surfaces::circles.
-struct Surroundings {
-  std::vector<Edge> edges;
-  std::vector<Circle> circles;
-};
 
 /// What a world's obstacles are bounded by, and how to find what is near: a hierarchy of boxes and,
 /// for what is asked at every step, a tree of square cells that leads from a point straight to the
@@ -33,13 +28,22 @@ class Surfaces {
   double distance(Point p) const noexcept;
 
   /// Least distance from p to the walls, 0 outside.
-  double wall_distance(Point p) const noexcept;
+  double wall_distance(Point p) const noexcept {
+    return std::max(0.0, std::min({p.x, width_ - p.x, p.y, height_ - p.y}));
+  }
 
   /// Whether obstacles and walls keep more than `room` > 0 from the segment p-q.
   bool keep_clear_of(Point p, Point q, double room) const noexcept;
 
-  /// Edges and circles no further than `reach` from p, and no others.
-  Surroundings around(Point p, double reach) const;
+  /// Which surfaces lie no further than `reach` from p, and no others: edges by index, then circles
+  /// by index + edges().size().
+  std::vector<std::uint32_t> around(Point p, double reach) const;
+
+  /// f of the edge or circle that has this number.
+  template <typename F>
+  auto apply(std::uint32_t surface, const F& f) const {
+    return surface < edges_.size() ? f(edges_[surface]) : f(circles_[surface - edges_.size()]);
+  }
 
   const std::vector<Edge>& edges() const noexcept { return edges_; }  ///< walls first
   const std::vector<Circle>& circles() const noexcept { return circles_; }
@@ -81,11 +85,6 @@ class Surfaces {
   void build();
   Candidates held_in(const Square& square, const Candidates& candidates) const;
   Cell listed(const Candidates& held);
-  // f of the edge or circle that has this number.
-  template <typename F>
-  auto apply(std::uint32_t surface, const F& f) const {
-    return surface < edges_.size() ? f(edges_[surface]) : f(circles_[surface - edges_.size()]);
-  }
   double distance(std::uint32_t surface, Point p) const noexcept;
   double searched_distance(Point p) const noexcept;
   const Cell& leaf(Point p) const noexcept;

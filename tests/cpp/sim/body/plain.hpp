@@ -76,6 +76,14 @@ inline double swept_clearance(const World& world, Point p, Point q) {
   return inside_outline(world, p) ? 0.0 : least;
 }
 
+/// What is near a point.
+struct Surroundings {
+  std::vector<Edge> edges;
+  std::vector<Circle> circles;
+  void add(const Edge& edge) { edges.push_back(edge); }
+  void add(const Circle& circle) { circles.push_back(circle); }
+};
+
 inline Surroundings around(const World& world, Point p, double reach) {
   Surroundings near;
   for (const Edge& edge : world.surfaces().edges()) {

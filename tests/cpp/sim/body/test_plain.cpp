@@ -36,8 +36,11 @@ TEST_CASE("Clearances and surroundings are those of a look at everything, to the
       differ += clearance != plain::clearance(world, p);
       const bool clear = world.surfaces().keep_clear_of(p, q, room);
       differ += clear != (plain::swept_clearance(world, p, q) > room);
-      const Surroundings near = world.surfaces().around(p, room);
-      const Surroundings expected = plain::around(world, p, room);
+      plain::Surroundings near;
+      for (const std::uint32_t surface : world.surfaces().around(p, room)) {
+        world.surfaces().apply(surface, [&](const auto& shape) { near.add(shape); });
+      }
+      const plain::Surroundings expected = plain::around(world, p, room);
       differ += !std::equal(near.edges.begin(), near.edges.end(), expected.edges.begin(),
                             expected.edges.end(),
                             [](auto& a, auto& b) { return a.a == b.a && a.b == b.b; });
