@@ -1,5 +1,6 @@
 """What several tests share."""
 
+import os
 import signal
 
 import devlearn
@@ -14,6 +15,25 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 # The same examples every time, however slow the machine.
 settings.register_profile("devlearn", derandomize=True, deadline=None, max_examples=60)
 settings.load_profile("devlearn")
+
+
+def refuse_skips(report):
+    """Under scripts/test nothing is passed over: what is skipped has failed, with the reason."""
+    if report.skipped and not hasattr(report, "wasxfail") and "DEVLEARN_NO_SKIPS" in os.environ:
+        report.outcome = "failed"
+        report.longrepr = f"skipped, where DEVLEARN_NO_SKIPS is set: {report.longrepr}"
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport():
+    """A test that is skipped."""
+    refuse_skips((yield).get_result())
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_make_collect_report():
+    """A module that is skipped whole."""
+    refuse_skips((yield).get_result())
 
 
 @pytest.fixture(scope="session")

@@ -87,10 +87,10 @@ def test_the_golden_trial_is_repeated_to_the_last_bit(preset):
 
 
 def cpp_tests():
-    """The C++ tests, where they are built and up to date."""
-    path = pathlib.Path(
-        os.environ.get("DEVLEARN_TEST_SIM", SOURCE / "build" / "release" / "tests/cpp/test_sim")
-    )
+    """The C++ tests: those that scripts/test just built, or what is built and up to date."""
+    if given := os.environ.get("DEVLEARN_TEST_SIM"):
+        return given
+    path = SOURCE / "build" / "release" / "tests/cpp/test_sim"
     sources = [*(SOURCE / "cpp").rglob("*.?pp")] + [
         SOURCE / "tests" / "cpp" / "sim" / "loop" / "test_trial.cpp"
     ]
