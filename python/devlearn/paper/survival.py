@@ -42,8 +42,8 @@ def run_to_the_end(
     state = folder / STATE
     trial = _core.Trial(world, config, seed)
     whence = provenance_of(world, config, seed, trial.agent) | {
-        "run": {**schedule.to_dict(), "echoes": echoes},
         "code": code_fingerprint(),
+        "run": {**schedule.to_dict(), "echoes": echoes},
     }
     parts: list[Record] = []
     done = None
