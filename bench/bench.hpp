@@ -29,7 +29,7 @@ inline World paper() { return World::load(std::string(DEVLEARN_WORLDS) + "/paper
 inline constexpr int kSeeds = 4, kSteps = 10000;
 
 /// One step of a free learning in the world `paper`, under the paper's preset.
-struct Step {
+struct PastStep {
   Pose pose;  // before it
   SituationId situation;
   int motion;
@@ -38,9 +38,9 @@ struct Step {
 };
 
 /// The free learning of a seed.
-inline std::vector<Step> free_learning(std::uint64_t seed) {
+inline std::vector<PastStep> free_learning(std::uint64_t seed) {
   const Record record = Trial(paper(), {}, seed).free_learning(kSteps);
-  std::vector<Step> steps;
+  std::vector<PastStep> steps;
   steps.reserve(record.steps());
   for (std::size_t i = 0; i < record.steps(); ++i) {
     steps.push_back({{record.x[i], record.y[i], record.heading[i]},
@@ -53,9 +53,9 @@ inline std::vector<Step> free_learning(std::uint64_t seed) {
 }
 
 /// That of every seed, 1 ... kSeeds.
-inline const std::vector<std::vector<Step>>& histories() {
-  static const std::vector<std::vector<Step>> all = [] {
-    std::vector<std::vector<Step>> made;
+inline const std::vector<std::vector<PastStep>>& histories() {
+  static const std::vector<std::vector<PastStep>> all = [] {
+    std::vector<std::vector<PastStep>> made;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) made.push_back(free_learning(seed));
     return made;
   }();
@@ -63,10 +63,10 @@ inline const std::vector<std::vector<Step>>& histories() {
 }
 
 /// All steps of them with or without contact.
-inline std::vector<Step> steps_where(bool collided) {
-  std::vector<Step> found;
+inline std::vector<PastStep> steps_where(bool collided) {
+  std::vector<PastStep> found;
   for (const auto& history : histories()) {
-    for (const Step& step : history) {
+    for (const PastStep& step : history) {
       if (step.collided == collided) found.push_back(step);
     }
   }

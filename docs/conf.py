@@ -1,5 +1,7 @@
 """How Sphinx writes the documentation; scripts/docs runs it."""
 
+import ast
+import csv
 import re
 import shutil
 import sys
@@ -9,6 +11,8 @@ from sphinx.util import logging
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ROOT / "build" / "docs-sources"
+sys.path.insert(0, str(ROOT / "docs"))
+from member_comments import STUB, attributes  # noqa: E402
 
 project = "devlearn"
 author = copyright = "The devlearn authors"
@@ -53,7 +57,7 @@ def write_standin():
         ("typing.SupportsFloat | typing.SupportsIndex", "float"),
         ("typing.SupportsIndex", "int"),
         ("typing.Annotated[numpy.typing.ArrayLike, numpy.float64]", "numpy.typing.ArrayLike"),
-        ("import devlearn._types\n", ""),  # which imports this
+        ("import devlearn._types\nimport devlearn.record\n", ""),  # which import this
         ("devlearn._types.", "devlearn."),
         ("devlearn.record.Record", "devlearn.Record"),
     ):
@@ -61,6 +65,24 @@ def write_standin():
     build = f'\n__version__ = "{release}"\nbox2d_version = commit = ""\n'
     stub.with_suffix(".py").write_text(text + build, encoding="utf-8")
     stub.unlink()
+
+
+def write_parameters():
+    """Writes a table of each configuration's fields, for docs/reference/parameters.rst."""
+    docs = attributes()
+    for cls in ast.parse(STUB.read_text(encoding="utf-8")).body:
+        methods = {item.name: item for item in getattr(cls, "body", []) if hasattr(item, "name")}
+        if "fields" not in methods:
+            continue
+        arguments = methods["__init__"].args
+        with (SOURCES / f"{cls.name}.csv").open("w", newline="", encoding="utf-8") as file:
+            rows = csv.writer(file)
+            rows.writerow(["field", "symbol", "default", "range", "meaning"])
+            for argument, default in zip(arguments.args[1:], arguments.defaults):
+                name, text = argument.arg, docs[cls.name][argument.arg]
+                told = re.fullmatch(r"(?:(\S+): )?(.*); (.*)\.", text)
+                symbol, meaning, allowed = told.groups("")
+                rows.writerow([f"``{name}``", symbol, ast.unparse(default), allowed, meaning])
 
 
 def as_rst(lines):
@@ -78,5 +100,6 @@ def edit_docstring(app, what, name, documented, options, lines):
 def setup(app):
     """Called by Sphinx."""
     write_standin()
+    write_parameters()
     sys.path.insert(0, str(SOURCES))
     app.connect("autodoc-process-docstring", edit_docstring, priority=400)

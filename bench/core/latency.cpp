@@ -51,12 +51,12 @@ int main(int count, char** arguments) {
   });
 
   // The situations of one robot's free learning, over and over.
-  const std::vector<bench::Step> history = bench::free_learning(1);
+  const std::vector<bench::PastStep> history = bench::free_learning(1);
   Learner paper({}, 1);
   paper.reserve(4800);
   std::size_t i = 0;
   measure("choose_learn_paper", taken, [&] {
-    const bench::Step& step = history[i++ % history.size()];
+    const bench::PastStep& step = history[i++ % history.size()];
     benchmark::DoNotOptimize(paper.choose(step.situation));
     benchmark::DoNotOptimize(paper.learn(step.smf_used));
   });

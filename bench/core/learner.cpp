@@ -50,7 +50,7 @@ struct Met {
 std::vector<Met> recorded() {
   std::vector<Met> met;
   for (const auto& history : histories()) {
-    for (const Step& step : history) met.push_back({step.situation, step.smf_used});
+    for (const PastStep& step : history) met.push_back({step.situation, step.smf_used});
   }
   return met;
 }
@@ -94,7 +94,7 @@ std::vector<std::vector<Met>> met_by_seed() {
   std::vector<std::vector<Met>> met;
   for (const auto& history : histories()) {
     met.emplace_back();
-    for (const Step& one : history) met.back().push_back({one.situation, one.smf_used});
+    for (const PastStep& one : history) met.back().push_back({one.situation, one.smf_used});
   }
   return met;
 }

@@ -11,27 +11,27 @@ namespace {
 template <typename F>
 void over_steps(benchmark::State& state, const World& world, F f) {
   const Robot robot(world, {});
-  const std::vector<Step> steps = steps_where(false);
+  const std::vector<PastStep> steps = steps_where(false);
   for (auto _ : state) {
-    for (const Step& step : steps) benchmark::DoNotOptimize(f(robot, step));
+    for (const PastStep& step : steps) benchmark::DoNotOptimize(f(robot, step));
   }
   per_step(state, static_cast<double>(steps.size()));
 }
 
 const auto* const clearance = add("clearance/geometric", [](benchmark::State& state) {
-  over_steps(state, paper(), [](const Robot& robot, const Step& step) {
+  over_steps(state, paper(), [](const Robot& robot, const PastStep& step) {
     return robot.world().clearance({step.pose.x, step.pose.y});
   });
 });
 
 const auto* const free_step = add("clearance/free_step", [](benchmark::State& state) {
-  over_steps(state, paper(), [](const Robot& robot, const Step& step) {
+  over_steps(state, paper(), [](const Robot& robot, const PastStep& step) {
     return robot.step(step.pose, step.motion);
   });
 });
 
 const auto* const among_many = add("clearance/free_step_8000", [](benchmark::State& state) {
-  over_steps(state, shattered(), [](const Robot& robot, const Step& step) {
+  over_steps(state, shattered(), [](const Robot& robot, const PastStep& step) {
     return robot.step(step.pose, step.motion);
   });
 });

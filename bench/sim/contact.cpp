@@ -10,15 +10,15 @@ namespace devlearn::bench {
 namespace {
 
 template <typename F>
-void over_steps(benchmark::State& state, const std::vector<Step>& steps, F f) {
+void over_steps(benchmark::State& state, const std::vector<PastStep>& steps, F f) {
   const Robot robot(paper(), {});
   for (auto _ : state) {
-    for (const Step& step : steps) benchmark::DoNotOptimize(f(robot, step));
+    for (const PastStep& step : steps) benchmark::DoNotOptimize(f(robot, step));
   }
   per_step(state, static_cast<double>(steps.size()));
 }
 
-Robot::Move moved(const Robot& robot, const Step& step) {
+Robot::Move moved(const Robot& robot, const PastStep& step) {
   return robot.step(step.pose, step.motion);
 }
 
@@ -32,7 +32,7 @@ const auto* const free = add("contact/free_step", [](benchmark::State& state) {
 // A world of Box2D made afresh, as the rule asks, of everything there is, and stepped 15 times.
 const auto* const plain = add("contact/plain", [](benchmark::State& state) {
   constexpr int kSubsteps = 15;
-  over_steps(state, steps_where(true), [](const Robot& robot, const Step& step) {
+  over_steps(state, steps_where(true), [](const Robot& robot, const PastStep& step) {
     const double turn = robot.def().steering_angles[static_cast<std::size_t>(step.motion)];
     Box2dWorld world(robot.world().def());
     return world.drive(step.pose, step.pose.heading + turn, kSubsteps);

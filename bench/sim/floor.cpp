@@ -166,7 +166,7 @@ struct Place {
 
 std::vector<Place> places() {
   std::vector<Place> found;
-  for (const Step& step : steps_where(false)) {
+  for (const PastStep& step : steps_where(false)) {
     const double radians = step.pose.heading * (3.14159265358979323846 / 180.0);
     found.push_back({{step.pose.x, step.pose.y},
                      {std::cos(radians), std::sin(radians)},

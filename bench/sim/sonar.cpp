@@ -17,7 +17,7 @@ void raycasts(benchmark::State& state, double range) {
     std::array<b2Vec2, 5> to;
   };
   std::vector<Rays> all;
-  for (const Step& step : steps_where(false)) {
+  for (const PastStep& step : steps_where(false)) {
     Rays rays{vector(step.pose.x, step.pose.y), {}};
     for (std::size_t i = 0; i < 5; ++i) {
       const double radians = (step.pose.heading - 90.0 + 45.0 * static_cast<double>(i)) * kRadians;
@@ -43,10 +43,10 @@ const auto* const bare_2m =
 
 const auto* const sonar = add("sonar/5", [](benchmark::State& state) {
   const Robot robot(paper(), {});
-  const std::vector<Step> steps = steps_where(false);
+  const std::vector<PastStep> steps = steps_where(false);
   std::array<double, 5> echoes;
   for (auto _ : state) {
-    for (const Step& step : steps) {
+    for (const PastStep& step : steps) {
       robot.sonar(step.pose, echoes.data());
       benchmark::DoNotOptimize(echoes);
     }

@@ -46,7 +46,7 @@ const auto* const box2d = add("box2d/closed_loop_60hz", [](benchmark::State& sta
   const RobotDef robot;
   const SituationGrid grid;
   const StateEvaluation evaluation;
-  std::vector<Step> steps = steps_where(false);
+  std::vector<PastStep> steps = steps_where(false);
   steps.resize(kReplayed);
   Box2dWorld physics(world.def());
   for (auto _ : state) {
@@ -54,8 +54,8 @@ const auto* const box2d = add("box2d/closed_loop_60hz", [](benchmark::State& sta
     Record record;
     record.begin_round(1, steps.front().pose);
     double before = 0.0;
-    for (const Step& step : steps) {
-      StepRecord now;
+    for (const PastStep& step : steps) {
+      Step now;
       now.situation = grid.situation(step.pose.x, step.pose.y, step.pose.heading);
       now.motion = learner.choose(now.situation).motion;
       const double turn = robot.steering_angles[static_cast<std::size_t>(step.motion)];

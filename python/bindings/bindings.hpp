@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -139,77 +140,18 @@ inline py::tuple attributes(const py::object& self, const std::vector<std::strin
   return values;
 }
 
+/// With a capital and a full stop.
+inline std::string sentence(std::string text) {
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text + ".";
+}
+
 /// Pickling of a class whose constructor takes the attributes of these names, in this order.
 template <typename T>
 void def_pickling(py::class_<T>& cls, std::vector<std::string> names) {
   cls.def("__reduce__", [names = std::move(names)](const py::object& self) {
     return py::make_tuple(py::type::of(self), attributes(self, names));
   });
-}
-
-/// What every configuration class offers beyond its fields: to_dict, from_dict, replace, equality,
-/// repr and pickling. The names are those of the constructor's arguments, in their order. `nested`
-/// maps a field to the class that its dict stands for.
-template <typename T>
-void def_fields(py::class_<T>& cls, std::vector<std::string> names, py::dict nested = {}) {
-  const std::string owner = py::str(cls.attr("__name__"));
-  cls.def(
-      "to_dict",
-      [names](const py::object& self) {
-        py::dict fields;
-        for (const std::string& name : names) {
-          py::object value = self.attr(name.c_str());
-          if (py::hasattr(value, "to_dict")) value = value.attr("to_dict")();
-          fields[name.c_str()] = value;
-        }
-        return fields;
-      },
-      "Its fields as a dict of plain values, as JSON can hold.");
-  const auto from_dict = [names, nested, owner, type = py::handle(cls)](const py::dict& fields) {
-    py::dict arguments;
-    for (const auto& [key, value] : fields) {
-      const std::string name = py::str(key);
-      if (std::find(names.begin(), names.end(), name) == names.end()) {
-        std::string known;
-        for (const std::string& field : names) known += (known.empty() ? "" : ", ") + field;
-        throw InvalidValue(owner + "." + name, "an unknown field", "one of " + known);
-      }
-      arguments[key] = nested.contains(key) && py::isinstance<py::dict>(value)
-                           ? py::object(nested[key].attr("from_dict")(value))
-                           : py::reinterpret_borrow<py::object>(value);
-    }
-    return type(**arguments).template cast<T>();
-  };
-  cls.def_static("from_dict", from_dict, py::arg("fields"),
-                 "From a dict of fields; those left out keep their defaults. Raises InvalidValue "
-                 "for an unknown field.");
-  cls.def(
-      "replace",
-      [from_dict](const py::object& self, const py::kwargs& changes) {
-        py::dict fields = self.attr("to_dict")();
-        for (const auto& [key, value] : changes) fields[key] = value;
-        return from_dict(fields);
-      },
-      "A copy with some fields changed.");
-  cls.def(
-      "__eq__", [](const T& a, const T& b) { return a == b; }, py::is_operator());
-  cls.def("__hash__", [names](const py::object& self) {
-    py::list values;
-    for (const std::string& name : names) {
-      const py::object value = self.attr(name.c_str());
-      values.append(py::isinstance<py::list>(value) ? py::object(py::tuple(value)) : value);
-    }
-    return py::hash(py::tuple(values));
-  });
-  cls.def("__repr__", [names, owner](const py::object& self) {
-    std::string text;
-    for (const std::string& name : names) {
-      text +=
-          (text.empty() ? "" : ", ") + name + "=" + std::string(py::repr(self.attr(name.c_str())));
-    }
-    return owner + "(" + text + ")";
-  });
-  def_pickling(cls, names);
 }
 
 }  // namespace devlearn::python

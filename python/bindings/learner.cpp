@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "bindings.hpp"
+#include "config.hpp"
 #include "devlearn/snapshot.hpp"
 #include "straight_method.hpp"
 
@@ -99,28 +100,11 @@ handle type_caster<devlearn::Development>::cast(const devlearn::Development& dev
 namespace devlearn::python {
 namespace {
 
-struct MotionCountTag {
-  using type = int;
-  static constexpr const char* quantity = "LearnerConfig.motion_count";
-  static constexpr const char* allowed = "a whole number in [1, 65535]";
-};
 struct ReserveTag {
   using type = std::size_t;
   static constexpr const char* quantity = "situations";
   static constexpr const char* allowed = "a whole number in [0, 2^32 - 2]";
 };
-
-OnNegative on_negative(const std::string& text) {
-  if (text == "abandon") return OnNegative::kAbandon;
-  if (text == "weaken") return OnNegative::kWeaken;
-  throw InvalidValue("LearnerConfig.on_negative", "'" + text + "'", "'abandon' or 'weaken'");
-}
-
-WhenExhausted when_exhausted(const std::string& text) {
-  if (text == "retry") return WhenExhausted::kRetry;
-  if (text == "wander") return WhenExhausted::kWander;
-  throw InvalidValue("LearnerConfig.when_exhausted", "'" + text + "'", "'retry' or 'wander'");
-}
 
 py::bytes snapshot_bytes(Idle learner) {
   const std::vector<std::byte> bytes = to_bytes(*learner);
@@ -184,53 +168,12 @@ Choice choose(Idle self, Whole<SituationTag> situation) { return self->choose(si
 Development learn(Idle self, double smf) { return self->learn(smf); }
 
 void bind_config(py::module_& m) {
-  py::class_<LearnerConfig> cls(
-      m, "LearnerConfig",
-      "The learner's parameters; the defaults are the paper's.\n\n"
-      "Parameters: motion_count N_M in 1 ... 65535; eta (Eq. 9) and sigma (Eq. 7) in (0, 1); c1 "
-      "in\n"
-      "[0, 1e6] and c2 in [-1e6, 1e6] (Eq. 5); on_negative, what becomes of an exploited motion\n"
-      "that met SMF < 0: 'abandon' (step 4: it moves to the ineffective list) or 'weaken' (step "
-      "5:\n"
-      "Eq. 9 lowers its orientation); when_exhausted, where every motion was tried and none is\n"
-      "effective: 'retry' (any motion; one that proves effective re-enters) or 'wander' (any "
-      "motion;\n"
-      "nothing is learned). Raises InvalidValue.");
-  cls.def(py::init([](Whole<MotionCountTag> motion_count, double eta, double sigma, double c1,
-                      double c2, const std::string& negative, const std::string& exhausted) {
-            const LearnerConfig config{
-                motion_count.value,       eta, sigma, c1, c2, on_negative(negative),
-                when_exhausted(exhausted)};
-            config.validate();
-            return config;
-          }),
-          py::arg("motion_count") = 5, py::arg("eta") = 0.05, py::arg("sigma") = 0.3,
-          py::arg("c1") = 0.5, py::arg("c2") = 1.0, py::arg("on_negative") = "abandon",
-          py::arg("when_exhausted") = "retry");
-  cls.def_static("paper", &LearnerConfig::paper,
-                 "The default: abandon and retry, the reading under which the paper's results come "
-                 "out.");
-  cls.def_static("step5", &LearnerConfig::step5,
-                 "The other reading, for comparison: weaken and wander.");
-  cls.def_readonly("motion_count", &LearnerConfig::motion_count, "N_M, the number of motions.");
-  cls.def_readonly("eta", &LearnerConfig::eta, "Orientation parameter of Eq. 9.");
-  cls.def_readonly("sigma", &LearnerConfig::sigma,
-                   "Weight of orientation against curiosity, Eq. 7.");
-  cls.def_readonly("c1", &LearnerConfig::c1, "How fast curiosity wanes, Eq. 5.");
-  cls.def_readonly("c2", &LearnerConfig::c2, "Times learned at which curiosity is 1/2, Eq. 5.");
-  cls.def_property_readonly(
-      "on_negative",
-      [](const LearnerConfig& self) {
-        return self.on_negative == OnNegative::kAbandon ? "abandon" : "weaken";
-      },
-      "'abandon' or 'weaken'.");
-  cls.def_property_readonly(
-      "when_exhausted",
-      [](const LearnerConfig& self) {
-        return self.when_exhausted == WhenExhausted::kRetry ? "retry" : "wander";
-      },
-      "'retry' or 'wander'.");
-  def_fields(cls, {"motion_count", "eta", "sigma", "c1", "c2", "on_negative", "when_exhausted"});
+  def_config<LearnerConfig>(m, "The learner's parameters; the defaults are the paper's.")
+      .def_static("paper", &LearnerConfig::paper,
+                  "The default: abandon and retry, the reading under which the paper's results "
+                  "come out.")
+      .def_static("step5", &LearnerConfig::step5,
+                  "The other reading, for comparison: weaken and wander.");
 }
 
 void bind_results(py::module_& m) {

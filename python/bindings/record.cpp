@@ -1,18 +1,35 @@
 #include "devlearn/record.hpp"
 
-#include <string_view>
 #include <type_traits>
 
 #include "bindings.hpp"
-#include "loop/record_columns.hpp"
 #include "record_object.hpp"
 
 namespace devlearn::python {
 
 namespace {
 
-// Whether a column of bytes holds booleans.
-bool holds_booleans(const char* dtype) { return std::string_view(dtype) == "BOOL"; }
+// What stands in a column as numpy sees it.
+template <typename Column>
+using Scalar =
+    std::conditional_t<std::is_same_v<typename Column::Value, bool>, bool, typename Column::Stored>;
+
+template <typename Visit>
+void each_column(const Visit& visit) {
+  detail::each_column(Record::step_columns(), visit);
+  detail::each_column(Record::pose_columns(), visit);
+}
+
+// name -> (dtype, what it is)
+template <typename Columns>
+py::dict described(const Columns& columns) {
+  py::dict result;
+  detail::each_column(columns, [&](const auto& column) {
+    const py::object dtype = py::dtype::of<Scalar<std::decay_t<decltype(column)>>>().attr("name");
+    result[column.name] = py::make_tuple(dtype, column.doc);
+  });
+  return result;
+}
 
 }  // namespace
 
@@ -20,18 +37,10 @@ py::dict columns(Record&& record) {
   const auto steps = static_cast<py::ssize_t>(record.steps());
   const py::ssize_t sonars = record.sonar_count;
   py::dict result;
-  const auto move = [&](const char* name, auto& column, const char* dtype) {
-    using T = typename std::decay_t<decltype(column)>::value_type;
-    if constexpr (std::is_same_v<T, std::uint8_t>) {
-      if (holds_booleans(dtype)) {
-        result[name] = moved_array<bool>(std::move(column));
-        return;
-      }
-    }
-    result[name] = moved_array<T>(std::move(column));
-  };
-  each_step_column(record, move);
-  each_pose_column(record, move);
+  each_column([&](const auto& column) {
+    result[column.name] =
+        moved_array<Scalar<std::decay_t<decltype(column)>>>(std::move(record.*column.values));
+  });
   result["rounds"] = moved_array<Round>(std::move(record.rounds));
   if (sonars > 0) {
     result["echoes"] = moved_array<double>(std::move(record.echoes), {steps, sonars});
@@ -41,15 +50,15 @@ py::dict columns(Record&& record) {
 
 namespace {
 
-template <typename Scalar, typename T>
+template <typename Dtype, typename T>
 void copy_column(const py::object& record, const char* name, std::vector<T>& column) {
-  static_assert(sizeof(Scalar) == sizeof(T));
+  static_assert(sizeof(Dtype) == sizeof(T));
   const py::object values = record.attr(name);
-  const auto array = py::array_t<Scalar, py::array::c_style>::ensure(values);
-  if (!array || !py::isinstance<py::array_t<Scalar>>(values)) {
+  const auto array = py::array_t<Dtype, py::array::c_style>::ensure(values);
+  if (!array || !py::isinstance<py::array_t<Dtype>>(values)) {
     PyErr_Clear();
     throw InvalidValue("record." + std::string(name), py::repr(py::type::of(values)),
-                       "an array of " + std::string(py::str(py::dtype::of<Scalar>())));
+                       "an array of " + std::string(py::str(py::dtype::of<Dtype>())));
   }
   const auto* const first = reinterpret_cast<const T*>(array.data());
   column.assign(first, first + array.size());
@@ -59,15 +68,9 @@ void copy_column(const py::object& record, const char* name, std::vector<T>& col
 
 Record record_of(const py::object& source) {
   Record record;
-  const auto copy = [&](const char* name, auto& column, const char* dtype) {
-    using T = typename std::decay_t<decltype(column)>::value_type;
-    if constexpr (std::is_same_v<T, std::uint8_t>) {
-      if (holds_booleans(dtype)) return copy_column<bool>(source, name, column);
-    }
-    copy_column<T>(source, name, column);
-  };
-  each_step_column(record, copy);
-  each_pose_column(record, copy);
+  each_column([&](const auto& column) {
+    copy_column<Scalar<std::decay_t<decltype(column)>>>(source, column.name, record.*column.values);
+  });
   const py::object rounds = source.attr("rounds");
   for (const py::handle entry : rounds) {
     record.rounds.push_back({entry["round"].cast<std::int32_t>(),
@@ -83,24 +86,14 @@ Record record_of(const py::object& source) {
 void bind_record(py::module_& m) {
   PYBIND11_NUMPY_DTYPE(Round, round, steps, arrived);
 
-  py::class_<StepRecord>(m, "Step", "Everything about one step of a trial.")
-      .def_readonly("round", &StepRecord::round, "The round it belongs to, from 1.")
-      .def_readonly("situation", &StepRecord::situation, "Before the step: S_i.")
-      .def_readonly("motion", &StepRecord::motion, "Index in M.")
-      .def_readonly("kind", &StepRecord::kind, "Why it was chosen.")
-      .def_readonly("sef", &StepRecord::sef, "After the step: SEF(t+1).")
-      .def_readonly("smf", &StepRecord::smf, "SEF(t+1) - SEF(t), Eq. 8.")
-      .def_readonly("smf_used", &StepRecord::smf_used,
-                    "What was learned from: min(smf, -1) for a collision.")
-      .def_readonly("collided", &StepRecord::collided, "Whether the body touched something.")
-      .def_readonly("arrived", &StepRecord::arrived, "After the step: d_g <= goal_radius.")
-      .def_readonly("goal_distance", &StepRecord::goal_distance, "After the step: d_g [m].")
-      .def_readonly("clearance", &StepRecord::clearance, "After the step: d_o [m].")
-      .def_readonly("event", &StepRecord::event, "What the outcome changed.")
-      .def_readonly("reduced", &StepRecord::reduced, "Motions removed by reduction development.")
-      .def_readonly("explored_count", &StepRecord::explored_count, "After the step: NUM_RM.")
-      .def_readonly("effective_count", &StepRecord::effective_count, "After the step: NUM_M.")
-      .def_readonly("pose", &StepRecord::pose, "After the step.")
+  m.attr("step_columns") = described(Record::step_columns());
+  m.attr("pose_columns") = described(Record::pose_columns());
+
+  py::class_<Step> step(m, "Step", "Everything about one step of a trial.");
+  detail::each_column(Record::step_columns(), [&](const auto& column) {
+    step.def_readonly(column.name, column.of, sentence(column.doc).c_str());
+  });
+  step.def_readonly("pose", &Step::pose, "After the step [m, m, degrees].")
       .def("__repr__", [](const py::object& self) {
         return py::str("<devlearn.Step: round {}, situation {}, motion {}, {}, smf {:.4g}>")
             .format(self.attr("round"), self.attr("situation"), self.attr("motion"),

@@ -2,68 +2,16 @@
 
 #include <optional>
 
-#include "bindings.hpp"
-#include "devlearn/detail/require.hpp"
+#include "config.hpp"
 #include "devlearn/shortest_path.hpp"
 
 namespace devlearn::python {
-namespace {
-
-struct SonarCountTag {
-  using type = int;
-  static constexpr const char* quantity = "sonar_count";
-  static constexpr const char* allowed = "a whole number in [0, 720]";
-};
-
-}  // namespace
 
 void bind_robot(py::module_& m) {
-  py::class_<RobotDef> cls(
-      m, "RobotDef",
-      "The robot of Fig. 1: a circle on two wheels that turns, then drives forward.\n\n"
-      "Parameters: radius in [0.01, 10] m; speed in (0, 10] m/s; sample_time in (0, 10] s, at "
-      "most\n"
-      "1 m a step; track, the distance between the wheels in Eq. 2, in (0, 10] m or None for the\n"
-      "radius, as printed; steering_angles M [degrees, counter-clockwise positive]; sonar_count "
-      "in\n"
-      "0 ... 720; sonar_fov in [0, 360] degrees about the heading; sonar_range in [0.01, 100] m.\n"
-      "Raises InvalidValue.");
-  cls.def(py::init([](double radius, double speed, double sample_time, std::optional<double> track,
-                      std::vector<double> steering_angles, Whole<SonarCountTag> sonar_count,
-                      double sonar_fov, double sonar_range) {
-            if (track) require_above("track", *track, 0.0, 10.0, "m");
-            RobotDef def{radius,
-                         speed,
-                         sample_time,
-                         track.value_or(0.0),
-                         std::move(steering_angles),
-                         sonar_count.value,
-                         sonar_fov,
-                         sonar_range};
-            def.validate();
-            return def;
-          }),
-          py::arg("radius") = 0.1, py::arg("speed") = 0.1, py::arg("sample_time") = 0.5,
-          py::arg("track") = py::none(),
-          py::arg("steering_angles") = py::make_tuple(-60.0, -30.0, 0.0, 30.0, 60.0),
-          py::arg("sonar_count") = 5, py::arg("sonar_fov") = 180.0, py::arg("sonar_range") = 2.0);
-  cls.def_readonly("radius", &RobotDef::radius, "r [m]");
-  cls.def_readonly("speed", &RobotDef::speed, "v [m/s]");
-  cls.def_readonly("sample_time", &RobotDef::sample_time, "t_s [s]");
-  cls.def_property_readonly(
-      "track",
-      [](const RobotDef& self) {
-        return self.track == 0.0 ? std::nullopt : std::optional<double>(self.track);
-      },
-      "Distance between the wheels [m]; None for the radius.");
-  cls.def_readonly("steering_angles", &RobotDef::steering_angles, "M [degrees]");
-  cls.def_readonly("sonar_count", &RobotDef::sonar_count, "Number of sonars.");
-  cls.def_readonly("sonar_fov", &RobotDef::sonar_fov, "Field of view [degrees].");
-  cls.def_readonly("sonar_range", &RobotDef::sonar_range, "[m]");
-  cls.def("sonar_angles", &RobotDef::sonar_angles,
-          "Where each sonar looks, relative to the heading, from right to left [degrees].");
-  def_fields(cls, {"radius", "speed", "sample_time", "track", "steering_angles", "sonar_count",
-                   "sonar_fov", "sonar_range"});
+  def_config<RobotDef>(
+      m, "The robot of Fig. 1: a circle on two wheels that turns, then drives forward.")
+      .def("sonar_angles", &RobotDef::sonar_angles,
+           "Where each sonar looks, relative to the heading, from right to left [degrees].");
 
   py::class_<Robot>(
       m, "Robot",

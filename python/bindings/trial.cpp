@@ -6,6 +6,7 @@
 
 #include "agents.hpp"
 #include "bindings.hpp"
+#include "config.hpp"
 #include "record_object.hpp"
 
 namespace devlearn::python {
@@ -26,18 +27,6 @@ struct StepLimitTag {
   static constexpr const char* quantity = "step_limit";
   static constexpr const char* allowed = "a whole number in [1, 2^40]";
 };
-struct HeadingBinsTag {
-  using type = int;
-  static constexpr const char* quantity = "TrialConfig.heading_bins";
-  static constexpr const char* allowed = "a whole number in [1, 3600]";
-};
-
-ClearanceSource clearance_source(const std::string& text) {
-  if (text == "geometric") return ClearanceSource::kGeometric;
-  if (text == "sonar") return ClearanceSource::kSonar;
-  throw InvalidValue("TrialConfig.clearance_source", "'" + text + "'", "'geometric' or 'sonar'");
-}
-
 /// An agent written in Python.
 class PythonAgent final : public Agent {
  public:
@@ -143,57 +132,10 @@ RecordObject run_phase(py::object& self, bool echoes, bool rounds_only, const Ph
 }
 
 void bind_config(py::module_& m) {
-  py::class_<TrialConfig> cls(
-      m, "TrialConfig",
-      "Everything a trial needs besides the world and the seed; the defaults are the paper's.\n\n"
-      "Parameters: learner, evaluation, robot; clearance_source, where d_o of Eq. 6 comes from:\n"
-      "'geometric' (exact) or 'sonar' (least echo plus the robot's radius; needs walls_count);\n"
-      "walls_count, whether walls count in d_o; goal_radius in (0, 100] m; cell_size in\n"
-      "[0.001, 1000] m and heading_bins in 1 ... 3600 of the situation grid. Raises InvalidValue.");
-  cls.def(
-      py::init([](const std::optional<LearnerConfig>& learner,
-                  const std::optional<StateEvaluation>& evaluation,
-                  const std::optional<RobotDef>& robot, const std::string& source, bool walls_count,
-                  double goal_radius, double cell_size, Whole<HeadingBinsTag> heading_bins) {
-        TrialConfig config;
-        config.robot = robot.value_or(RobotDef{});
-        config.learner = learner.value_or(LearnerConfig{});
-        config.evaluation = evaluation.value_or(StateEvaluation{});
-        config.clearance_source = clearance_source(source);
-        config.walls_count = walls_count;
-        config.goal_radius = goal_radius;
-        config.cell_size = cell_size;
-        config.heading_bins = heading_bins.value;
-        config.validate();
-        return config;
-      }),
-      py::arg("learner") = py::none(), py::arg("evaluation") = py::none(),
-      py::arg("robot") = py::none(), py::arg("clearance_source") = "geometric",
-      py::arg("walls_count") = false, py::arg("goal_radius") = 0.1, py::arg("cell_size") = 0.25,
-      py::arg("heading_bins") = 12);
-  cls.def_static("paper", &TrialConfig::paper, "The default, with LearnerConfig.paper().");
-  cls.def_static("step5", &TrialConfig::step5, "The other reading, with LearnerConfig.step5().");
-  cls.def_readonly("learner", &TrialConfig::learner, "LearnerConfig");
-  cls.def_readonly("evaluation", &TrialConfig::evaluation, "StateEvaluation");
-  cls.def_readonly("robot", &TrialConfig::robot, "RobotDef");
-  cls.def_property_readonly(
-      "clearance_source",
-      [](const TrialConfig& self) {
-        return self.clearance_source == ClearanceSource::kGeometric ? "geometric" : "sonar";
-      },
-      "'geometric' or 'sonar'.");
-  cls.def_readonly("walls_count", &TrialConfig::walls_count, "Whether walls count in d_o.");
-  cls.def_readonly("goal_radius", &TrialConfig::goal_radius, "Arrived when d_g <= this [m].");
-  cls.def_readonly("cell_size", &TrialConfig::cell_size, "Of the situation grid [m].");
-  cls.def_readonly("heading_bins", &TrialConfig::heading_bins, "Of the situation grid.");
-  py::dict nested;
-  nested["learner"] = m.attr("LearnerConfig");
-  nested["evaluation"] = m.attr("StateEvaluation");
-  nested["robot"] = m.attr("RobotDef");
-  def_fields(cls,
-             {"learner", "evaluation", "robot", "clearance_source", "walls_count", "goal_radius",
-              "cell_size", "heading_bins"},
-             nested);
+  def_config<TrialConfig>(
+      m, "Everything a trial needs besides the world and the seed; the defaults are the paper's.")
+      .def_static("paper", &TrialConfig::paper, "The default, with LearnerConfig.paper().")
+      .def_static("step5", &TrialConfig::step5, "The other reading, with LearnerConfig.step5().");
 }
 
 void bind_messages(py::module_& m) {

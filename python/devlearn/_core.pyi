@@ -39,8 +39,10 @@ __all__: list[str] = [
     "commit",
     "direction",
     "exponential",
+    "pose_columns",
     "record_in_snapshot",
     "shortest_path",
+    "step_columns",
     "wrapped_heading",
     "write_file",
 ]
@@ -138,13 +140,30 @@ class SituationGrid:
 
 class StateEvaluation:
     """
-    Step 2, the state evaluation function (Eq. 6):
+    Step 2, the state evaluation function (Eq. 6); the defaults are the paper's:
 
         SEF = (a1 - a2 * d_g**2) - a3 * exp(a4 - a5 * d_o)
 
-    Parameters: a1 in [-1e6, 1e6], a2, a3, a5 in [0, 1e6], a4 in [-100, 100]; the defaults are
-    the paper's. Raises InvalidValue.
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    a1
+        a_1: SEF at the target, far from obstacles; in [-1e+06, 1e+06].
+    a2
+        a_2: pull of the target; in [0, 1e+06] 1/m^2.
+    a3
+        a_3: push of obstacles; in [0, 1e+06].
+    a4
+        a_4: log of the push at an obstacle's surface; in [-100, 100].
+    a5
+        a_5: how fast the push decays; in [0, 1e+06] 1/m.
     """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
     @staticmethod
     def from_dict(fields: dict[str, typing.Any]) -> StateEvaluation:
         """
@@ -188,40 +207,60 @@ class StateEvaluation:
     @property
     def a1(self) -> float:
         """
-        SEF at the target, far from obstacles.
+        a_1: SEF at the target, far from obstacles; in [-1e+06, 1e+06].
         """
     @property
     def a2(self) -> float:
         """
-        Pull of the target [1/m^2].
+        a_2: pull of the target; in [0, 1e+06] 1/m^2.
         """
     @property
     def a3(self) -> float:
         """
-        Push of obstacles.
+        a_3: push of obstacles; in [0, 1e+06].
         """
     @property
     def a4(self) -> float:
         """
-        Log of the push at an obstacle's surface.
+        a_4: log of the push at an obstacle's surface; in [-100, 100].
         """
     @property
     def a5(self) -> float:
         """
-        How fast the push decays [1/m].
+        a_5: how fast the push decays; in [0, 1e+06] 1/m.
         """
 
 class LearnerConfig:
     """
     The learner's parameters; the defaults are the paper's.
 
-    Parameters: motion_count N_M in 1 ... 65535; eta (Eq. 9) and sigma (Eq. 7) in (0, 1); c1 in
-    [0, 1e6] and c2 in [-1e6, 1e6] (Eq. 5); on_negative, what becomes of an exploited motion
-    that met SMF < 0: 'abandon' (step 4: it moves to the ineffective list) or 'weaken' (step 5:
-    Eq. 9 lowers its orientation); when_exhausted, where every motion was tried and none is
-    effective: 'retry' (any motion; one that proves effective re-enters) or 'wander' (any motion;
-    nothing is learned). Raises InvalidValue.
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    motion_count
+        N_M: number of motions; a whole number in [1, 65535].
+    eta
+        eta: orientation parameter of Eq. 9; in (0, 1).
+    sigma
+        sigma: weight of orientation against curiosity in Eq. 7; in (0, 1).
+    c1
+        c_1: how fast curiosity wanes, Eq. 5; in [0, 1e+06].
+    c2
+        c_2: times learned at which curiosity is 1/2, Eq. 5; in [-1e+06, 1e+06].
+    on_negative
+        What becomes of an exploited motion that met SMF < 0: it moves to the ineffective list (step
+        4), or its orientation falls by Eq. 9 (step 5); 'abandon' or 'weaken'.
+    when_exhausted
+        What is done where every motion was tried and none is effective: any motion, and one that
+        proves effective enters M_i again, or any motion, and nothing is learned; 'retry' or
+        'wander'.
     """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
     @staticmethod
     def from_dict(fields: dict[str, typing.Any]) -> LearnerConfig:
         """
@@ -262,37 +301,37 @@ class LearnerConfig:
     @property
     def c1(self) -> float:
         """
-        How fast curiosity wanes, Eq. 5.
+        c_1: how fast curiosity wanes, Eq. 5; in [0, 1e+06].
         """
     @property
     def c2(self) -> float:
         """
-        Times learned at which curiosity is 1/2, Eq. 5.
+        c_2: times learned at which curiosity is 1/2, Eq. 5; in [-1e+06, 1e+06].
         """
     @property
     def eta(self) -> float:
         """
-        Orientation parameter of Eq. 9.
+        eta: orientation parameter of Eq. 9; in (0, 1).
         """
     @property
     def motion_count(self) -> int:
         """
-        N_M, the number of motions.
+        N_M: number of motions; a whole number in [1, 65535].
         """
     @property
     def on_negative(self) -> str:
         """
-        'abandon' or 'weaken'.
+        What becomes of an exploited motion that met SMF < 0: it moves to the ineffective list (step 4), or its orientation falls by Eq. 9 (step 5); 'abandon' or 'weaken'.
         """
     @property
     def sigma(self) -> float:
         """
-        Weight of orientation against curiosity, Eq. 7.
+        sigma: weight of orientation against curiosity in Eq. 7; in (0, 1).
         """
     @property
     def when_exhausted(self) -> str:
         """
-        'retry' or 'wander'.
+        What is done where every motion was tried and none is effective: any motion, and one that proves effective enters M_i again, or any motion, and nothing is learned; 'retry' or 'wander'.
         """
 
 class Kind(enum.IntEnum):
@@ -766,12 +805,35 @@ class RobotDef:
     """
     The robot of Fig. 1: a circle on two wheels that turns, then drives forward.
 
-    Parameters: radius in [0.01, 10] m; speed in (0, 10] m/s; sample_time in (0, 10] s, at most
-    1 m a step; track, the distance between the wheels in Eq. 2, in (0, 10] m or None for the
-    radius, as printed; steering_angles M [degrees, counter-clockwise positive]; sonar_count in
-    0 ... 720; sonar_fov in [0, 360] degrees about the heading; sonar_range in [0.01, 100] m.
     Raises InvalidValue.
+
+    Parameters
+    ----------
+    radius
+        r: radius of the body; in [0.01, 10] m.
+    speed
+        v: speed of the drive; in (0, 10] m/s.
+    sample_time
+        t_s: how long a step's drive lasts, and its turn by Eq. 2; v t_s is at most 1 m; in (0, 10]
+        s.
+    track
+        Distance between the wheels in Eq. 2; none for the radius, as printed; in (0, 10] m, or
+        none.
+    steering_angles
+        M: the motions: by how much each turns, counter-clockwise; 1 ... 65535 numbers, each in
+        [-360, 360] degrees.
+    sonar_count
+        Number of sonars; a whole number in [0, 720].
+    sonar_fov
+        The sonars' field of view about the heading; in [0, 360] degrees.
+    sonar_range
+        How far a sonar hears, from the body's rim; in [0.01, 100] m.
     """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
     @staticmethod
     def from_dict(fields: dict[str, typing.Any]) -> RobotDef:
         """
@@ -813,42 +875,42 @@ class RobotDef:
     @property
     def radius(self) -> float:
         """
-        r [m]
+        r: radius of the body; in [0.01, 10] m.
         """
     @property
     def sample_time(self) -> float:
         """
-        t_s [s]
+        t_s: how long a step's drive lasts, and its turn by Eq. 2; v t_s is at most 1 m; in (0, 10] s.
         """
     @property
     def sonar_count(self) -> int:
         """
-        Number of sonars.
+        Number of sonars; a whole number in [0, 720].
         """
     @property
     def sonar_fov(self) -> float:
         """
-        Field of view [degrees].
+        The sonars' field of view about the heading; in [0, 360] degrees.
         """
     @property
     def sonar_range(self) -> float:
         """
-        [m]
+        How far a sonar hears, from the body's rim; in [0.01, 100] m.
         """
     @property
     def speed(self) -> float:
         """
-        v [m/s]
+        v: speed of the drive; in (0, 10] m/s.
         """
     @property
     def steering_angles(self) -> list[float]:
         """
-        M [degrees]
+        M: the motions: by how much each turns, counter-clockwise; 1 ... 65535 numbers, each in [-360, 360] degrees.
         """
     @property
     def track(self) -> float | None:
         """
-        Distance between the wheels [m]; None for the radius.
+        Distance between the wheels in Eq. 2; none for the radius, as printed; in (0, 10] m, or none.
         """
 
 class Robot:
@@ -899,7 +961,7 @@ class Step:
     @property
     def collided(self) -> bool:
         """
-        Whether the body touched something.
+        Whether the body touched something during the step.
         """
     @property
     def effective_count(self) -> int:
@@ -909,7 +971,7 @@ class Step:
     @property
     def event(self) -> Event:
         """
-        What the outcome changed.
+        What the outcome changed, an Event.
         """
     @property
     def explored_count(self) -> int:
@@ -924,7 +986,7 @@ class Step:
     @property
     def kind(self) -> Kind:
         """
-        Why it was chosen.
+        Why it was chosen, a Kind.
         """
     @property
     def motion(self) -> int:
@@ -934,17 +996,17 @@ class Step:
     @property
     def pose(self) -> devlearn._types.Pose:
         """
-        After the step.
+        After the step [m, m, degrees].
         """
     @property
     def reduced(self) -> int:
         """
-        Motions removed by reduction development.
+        Motions that reduction development removed.
         """
     @property
     def round(self) -> int:
         """
-        The round it belongs to, from 1.
+        The round the step belongs to, from 1.
         """
     @property
     def sef(self) -> float:
@@ -954,7 +1016,7 @@ class Step:
     @property
     def situation(self) -> int:
         """
-        Before the step: S_i.
+        Before the step: S_i, in which the motion was chosen.
         """
     @property
     def smf(self) -> float:
@@ -971,11 +1033,33 @@ class TrialConfig:
     """
     Everything a trial needs besides the world and the seed; the defaults are the paper's.
 
-    Parameters: learner, evaluation, robot; clearance_source, where d_o of Eq. 6 comes from:
-    'geometric' (exact) or 'sonar' (least echo plus the robot's radius; needs walls_count);
-    walls_count, whether walls count in d_o; goal_radius in (0, 100] m; cell_size in
-    [0.001, 1000] m and heading_bins in 1 ... 3600 of the situation grid. Raises InvalidValue.
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    learner
+        Steps 3-5; its motions are the robot's; a LearnerConfig.
+    evaluation
+        Step 2, Eq. 6; a StateEvaluation.
+    robot
+        Eq. 1-2; a RobotDef.
+    clearance_source
+        Where d_o of Eq. 6 comes from: the exact distance, or the least echo plus the robot's
+        radius; 'geometric' or 'sonar'.
+    walls_count
+        Whether walls count in d_o; the clearance source sonar needs it; true or false.
+    goal_radius
+        Arrived when d_g is no more than this; in (0, 100] m.
+    cell_size
+        Side of a cell of the situation grid; in [0.001, 1000] m.
+    heading_bins
+        Headings of the situation grid; a whole number in [1, 3600].
     """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
     @staticmethod
     def from_dict(fields: dict[str, typing.Any]) -> TrialConfig:
         """
@@ -1017,42 +1101,42 @@ class TrialConfig:
     @property
     def cell_size(self) -> float:
         """
-        Of the situation grid [m].
+        Side of a cell of the situation grid; in [0.001, 1000] m.
         """
     @property
     def clearance_source(self) -> str:
         """
-        'geometric' or 'sonar'.
+        Where d_o of Eq. 6 comes from: the exact distance, or the least echo plus the robot's radius; 'geometric' or 'sonar'.
         """
     @property
     def evaluation(self) -> StateEvaluation:
         """
-        StateEvaluation
+        Step 2, Eq. 6; a StateEvaluation.
         """
     @property
     def goal_radius(self) -> float:
         """
-        Arrived when d_g <= this [m].
+        Arrived when d_g is no more than this; in (0, 100] m.
         """
     @property
     def heading_bins(self) -> int:
         """
-        Of the situation grid.
+        Headings of the situation grid; a whole number in [1, 3600].
         """
     @property
     def learner(self) -> LearnerConfig:
         """
-        LearnerConfig
+        Steps 3-5; its motions are the robot's; a LearnerConfig.
         """
     @property
     def robot(self) -> RobotDef:
         """
-        RobotDef
+        Eq. 1-2; a RobotDef.
         """
     @property
     def walls_count(self) -> bool:
         """
-        Whether walls count in d_o.
+        Whether walls count in d_o; the clearance source sonar needs it; true or false.
         """
 
 class Observation:
@@ -1315,3 +1399,25 @@ def write_file(path: typing.Any, content: bytes) -> None:
 __version__: str
 box2d_version: str
 commit: str
+pose_columns: dict[str, tuple[str, str]] = {
+    "x": ("float64", "of the robot's centre [m]"),
+    "y": ("float64", "likewise [m]"),
+    "heading": ("float64", "counter-clockwise from x [degrees]"),
+}
+step_columns: dict[str, tuple[str, str]] = {
+    "round": ("int32", "the round the step belongs to, from 1"),
+    "situation": ("int64", "before the step: S_i, in which the motion was chosen"),
+    "motion": ("int32", "index in M"),
+    "kind": ("uint8", "why it was chosen, a Kind"),
+    "sef": ("float64", "after the step: SEF(t+1)"),
+    "smf": ("float64", "SEF(t+1) - SEF(t), Eq. 8"),
+    "smf_used": ("float64", "what was learned from: min(smf, -1) for a collision"),
+    "collided": ("bool", "whether the body touched something during the step"),
+    "arrived": ("bool", "after the step: d_g <= goal_radius"),
+    "goal_distance": ("float64", "after the step: d_g [m]"),
+    "clearance": ("float64", "after the step: d_o [m]"),
+    "event": ("uint8", "what the outcome changed, an Event"),
+    "reduced": ("int32", "motions that reduction development removed"),
+    "explored_count": ("int64", "after the step: NUM_RM"),
+    "effective_count": ("int64", "after the step: NUM_M"),
+}

@@ -20,56 +20,28 @@ from .errors import FileError, InvalidValue
 FORMAT = "devlearn-record"
 FORMAT_VERSION = 1
 
-# One value a step.
-STEP_COLUMNS = {
-    "round": np.int32,
-    "situation": np.int64,
-    "motion": np.int32,
-    "kind": np.uint8,
-    "sef": np.float64,
-    "smf": np.float64,
-    "smf_used": np.float64,
-    "collided": np.bool_,
-    "arrived": np.bool_,
-    "goal_distance": np.float64,
-    "clearance": np.float64,
-    "event": np.uint8,
-    "reduced": np.int32,
-    "explored_count": np.int64,
-    "effective_count": np.int64,
-}
-# One value a pose: a round of n steps has n + 1.
-POSE_COLUMNS = {"x": np.float64, "y": np.float64, "heading": np.float64}
+# One value a step, and one value a pose: a round of n steps has n + 1. Name and dtype of each.
+STEP_COLUMNS = {name: np.dtype(dtype) for name, (dtype, _) in _core.step_columns.items()}
+POSE_COLUMNS = {name: np.dtype(dtype) for name, (dtype, _) in _core.pose_columns.items()}
 _ROUND_FIELDS = {"round": np.int32, "steps": np.int64, "arrived": np.bool_}
 _ROUNDS_DTYPE = np.dtype(list(_ROUND_FIELDS.items()))
 
 
-class Record:
-    """What happened in a trial: numpy columns of one value a step.
+def _table() -> str:
+    columns = {**_core.step_columns, **_core.pose_columns}
+    columns["rounds"] = ("struct", "one entry a round: round, steps, arrived")
+    columns["echoes"] = ("float64", "after each step: (steps, sonars) [m], or None")
+    rule = f"{'=' * 19}  {'=' * 7}  {'=' * 51}"
+    rows = [f"``{name}``".ljust(21) + f"{d:9}{doc}" for name, (d, doc) in columns.items()]
+    return "\n    ".join([rule, "column               dtype    meaning", rule, *rows, rule])
 
-    ========================  =======  ====================================================
-    column                    dtype    meaning
-    ========================  =======  ====================================================
-    ``round``                 int32    the round the step belongs to, from 1
-    ``situation``             int64    before the step: S_i, in which the motion was chosen
-    ``motion``                int32    index in M
-    ``kind``                  uint8    why it was chosen, a ``Kind``
-    ``sef``                   float64  after the step: SEF(t+1)
-    ``smf``                   float64  SEF(t+1) - SEF(t), Eq. 8
-    ``smf_used``              float64  learned from: min(smf, -1) for a collision
-    ``collided``              bool     the body touched something during the step
-    ``arrived``               bool     after the step: d_g <= goal_radius
-    ``goal_distance``         float64  after the step: d_g [m]
-    ``clearance``             float64  after the step: d_o [m]
-    ``event``                 uint8    what the outcome changed, an ``Event``
-    ``reduced``               int32    motions that reduction development removed
-    ``explored_count``        int64    after the step: NUM_RM
-    ``effective_count``       int64    after the step: NUM_M
-    ``x`` ``y`` ``heading``   float64  poses [m, m, degrees]: n + 1 for a round of n steps
-    ``rounds``                struct   one entry a round: round, steps, arrived
-    ``echoes``                float64  after each step: (steps, sonars) [m], or None
-    ========================  =======  ====================================================
 
+class Record:  # noqa: D101 - made of the columns
+    __doc__ = f"""What happened in a trial: numpy columns of one value a step or a pose.
+
+    {_table()}
+
+    A round of n steps has n + 1 poses, from where it began to where it ended.
     A run with ``rounds_only`` leaves the step and pose columns empty; ``rounds`` tells the steps.
 
     ``provenance`` tells where it came from: version, commit, Box2D's version, world and its hash,
@@ -382,8 +354,8 @@ def _check(columns: Mapping[str, npt.NDArray[Any]]) -> None:
         if not isinstance(columns[name], np.ndarray) or columns[name].ndim == 0:
             raise InvalidValue(name, f"a value of {type(columns[name]).__name__}", "an array")
     rounds = columns["rounds"]
-    for field, dtype in _ROUND_FIELDS.items():
-        if rounds.dtype.fields is None or rounds.dtype.fields.get(field, (None,))[0] != dtype:
+    for field, kind in _ROUND_FIELDS.items():
+        if rounds.dtype.fields is None or rounds.dtype.fields.get(field, (None,))[0] != kind:
             raise InvalidValue("rounds", rounds.dtype, f"fields {', '.join(_ROUND_FIELDS)}")
     steps = len(columns["situation"])
     rounds_only = _holds_rounds_only(rounds, columns["x"])

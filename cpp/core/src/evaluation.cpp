@@ -37,16 +37,10 @@ void StateEvaluation::evaluate(const double* goal_distances, const double* obsta
   }
 }
 
-void StateEvaluation::validate() const {
-  require_in("StateEvaluation.a1", a1, -1e6, 1e6);
-  require_in("StateEvaluation.a2", a2, 0.0, 1e6, "1/m^2");
-  require_in("StateEvaluation.a3", a3, 0.0, 1e6);
-  require_in("StateEvaluation.a4", a4, -100.0, 100.0);
-  require_in("StateEvaluation.a5", a5, 0.0, 1e6, "1/m");
-}
+void StateEvaluation::validate() const { detail::require_fields(*this); }
 
 bool operator==(const StateEvaluation& a, const StateEvaluation& b) noexcept {
-  return a.a1 == b.a1 && a.a2 == b.a2 && a.a3 == b.a3 && a.a4 == b.a4 && a.a5 == b.a5;
+  return detail::same_fields(a, b);
 }
 
 }  // namespace devlearn

@@ -37,19 +37,10 @@ LearnerConfig LearnerConfig::step5() {
   return config;
 }
 
-void LearnerConfig::validate() const {
-  require_count("LearnerConfig.motion_count", motion_count, 1, 65535);
-  require_between("LearnerConfig.eta", eta, 0.0, 1.0);
-  require_between("LearnerConfig.sigma", sigma, 0.0, 1.0);
-  require_in("LearnerConfig.c1", c1, 0.0, 1e6);
-  require_in("LearnerConfig.c2", c2, -1e6, 1e6);
-  require_count("LearnerConfig.on_negative", static_cast<int>(on_negative), 0, 1);
-  require_count("LearnerConfig.when_exhausted", static_cast<int>(when_exhausted), 0, 1);
-}
+void LearnerConfig::validate() const { detail::require_fields(*this); }
 
 bool operator==(const LearnerConfig& a, const LearnerConfig& b) noexcept {
-  return a.motion_count == b.motion_count && a.eta == b.eta && a.sigma == b.sigma && a.c1 == b.c1 &&
-         a.c2 == b.c2 && a.on_negative == b.on_negative && a.when_exhausted == b.when_exhausted;
+  return detail::same_fields(a, b);
 }
 
 Learner::Learner(const LearnerConfig& config, std::uint64_t seed)

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "devlearn/detail/fields.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/learner.hpp"
 #include "safetensors.hpp"
@@ -24,21 +26,24 @@ Learner learner_of(const safetensors::Contents& contents, const std::string& sou
 /// A generator's state. Throws FileError.
 Random::State random_of(const safetensors::Contents& contents, const std::string& source);
 
-/// Writes values as metadata entries: numbers so that they read back to the bit.
+/// Writes values as metadata entries: numbers so that they read back to the bit, none as 0. Lists
+/// become arrays, which point into them.
 class EntryWriter {
  public:
-  explicit EntryWriter(safetensors::Metadata& metadata) : metadata_(metadata) {}
+  explicit EntryWriter(safetensors::Contents& contents) : contents_(contents) {}
   void operator()(const std::string& name, double value);
   void operator()(const std::string& name, std::uint64_t value);
   void operator()(const std::string& name, int value);
   void operator()(const std::string& name, bool value);
+  void operator()(const std::string& name, const std::optional<double>& value);
+  void operator()(const std::string& name, const std::vector<double>& values);
   template <typename Enum>
   void operator()(const std::string& name, Enum value, const std::vector<std::string>& names) {
-    metadata_[name] = names.at(static_cast<std::size_t>(value));
+    contents_.metadata[name] = names.at(static_cast<std::size_t>(value));
   }
 
  private:
-  safetensors::Metadata& metadata_;
+  safetensors::Contents& contents_;
 };
 
 /// The reverse. Throws FileError for an entry that is missing or of another kind.
@@ -51,6 +56,8 @@ class EntryReader {
   void operator()(const std::string& name, std::int64_t& value) const;
   void operator()(const std::string& name, int& value) const;
   void operator()(const std::string& name, bool& value) const;
+  void operator()(const std::string& name, std::optional<double>& value) const;
+  void operator()(const std::string& name, std::vector<double>& values) const;
   template <typename Enum>
   void operator()(const std::string& name, Enum& value,
                   const std::vector<std::string>& names) const {
@@ -67,16 +74,23 @@ class EntryReader {
   const std::string& source_;
 };
 
-/// Every field of a learner's configuration, for either of them.
-template <typename Config, typename Entries>
-void each_field(Config& config, const std::string& prefix, Entries& entries) {
-  entries(prefix + "motion_count", config.motion_count);
-  entries(prefix + "eta", config.eta);
-  entries(prefix + "sigma", config.sigma);
-  entries(prefix + "c1", config.c1);
-  entries(prefix + "c2", config.c2);
-  entries(prefix + "on_negative", config.on_negative, {"abandon", "weaken"});
-  entries(prefix + "when_exhausted", config.when_exhausted, {"retry", "wander"});
+/// Every field of a Def, for either of them: entries by the prefix and the field's name, arrays by
+/// its name alone.
+template <typename Def, typename Entries>
+void each_entry(Def& def, const std::string& prefix, Entries& entries) {
+  detail::each_field<std::remove_const_t<Def>>([&](const auto& field) {
+    auto& value = def.*field.member;
+    using T = std::decay_t<decltype(value)>;
+    if constexpr (std::is_enum_v<T>) {
+      entries(prefix + field.name, value, {field.range.names.begin(), field.range.names.end()});
+    } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+      entries(field.name, value);
+    } else if constexpr (std::is_same_v<std::decay_t<decltype(field.range)>, detail::Nested>) {
+      each_entry(value, prefix + field.name + ".", entries);
+    } else {
+      entries(prefix + field.name, value);
+    }
+  });
 }
 
 /// What `make` makes of a file's values; what it refuses is refused as the file's fault.

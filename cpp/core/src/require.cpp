@@ -2,13 +2,14 @@
 
 #include <string>
 
+#include "devlearn/detail/fields.hpp"
+
 namespace devlearn {
 
 void refuse_outside(std::string_view quantity, double value, char left, double low, double high,
                     char right, std::string_view unit) {
-  std::string allowed = std::string("in ") + left + to_text(low) + ", " + to_text(high) + right;
-  if (!unit.empty()) allowed.append(" ").append(unit);
-  throw InvalidValue(std::string(quantity), to_text(value), allowed);
+  const detail::Interval allowed{low, high, left == '[', right == ']', unit};
+  throw InvalidValue(std::string(quantity), to_text(value), allowed.text());
 }
 
 void refuse_infinite(std::string_view quantity, double value) {
@@ -16,9 +17,7 @@ void refuse_infinite(std::string_view quantity, double value) {
 }
 
 void refuse_count(std::string_view quantity, long long value, long long low, long long high) {
-  throw InvalidValue(
-      std::string(quantity), std::to_string(value),
-      "a whole number in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
+  throw InvalidValue(std::string(quantity), std::to_string(value), detail::whole(low, high).text());
 }
 
 void require_size(std::string_view quantity, std::size_t size, std::size_t expected) {

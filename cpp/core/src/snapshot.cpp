@@ -41,16 +41,22 @@ void require_format(const safetensors::Contents& contents, const std::string& fo
 }
 
 void EntryWriter::operator()(const std::string& name, double value) {
-  metadata_[name] = to_text(value);
+  contents_.metadata[name] = to_text(value);
 }
 void EntryWriter::operator()(const std::string& name, std::uint64_t value) {
-  metadata_[name] = std::to_string(value);
+  contents_.metadata[name] = std::to_string(value);
 }
 void EntryWriter::operator()(const std::string& name, int value) {
-  metadata_[name] = std::to_string(value);
+  contents_.metadata[name] = std::to_string(value);
 }
 void EntryWriter::operator()(const std::string& name, bool value) {
-  metadata_[name] = value ? "true" : "false";
+  contents_.metadata[name] = value ? "true" : "false";
+}
+void EntryWriter::operator()(const std::string& name, const std::optional<double>& value) {
+  (*this)(name, value.value_or(0.0));
+}
+void EntryWriter::operator()(const std::string& name, const std::vector<double>& values) {
+  contents_.arrays[name] = safetensors::array_of(values.data(), {values.size()});
 }
 
 template <typename T>
@@ -78,6 +84,17 @@ void EntryReader::operator()(const std::string& name, int& value) const {
 void EntryReader::operator()(const std::string& name, bool& value) const {
   value = option(name, {"false", "true"}) == 1;
 }
+void EntryReader::operator()(const std::string& name, std::optional<double>& value) const {
+  double number = 0.0;
+  (*this)(name, number);
+  value = number == 0.0 ? std::nullopt : std::optional(number);
+}
+void EntryReader::operator()(const std::string& name, std::vector<double>& values) const {
+  const auto found = contents_.arrays.find(name);
+  const bool listed = found != contents_.arrays.end() && !found->second.shape.empty();
+  const std::uint64_t count = listed ? found->second.shape[0] : 0;
+  values = safetensors::values<double>(contents_, name, {count}, source_);
+}
 
 // The position of an entry's text among its options.
 std::size_t EntryReader::option(const std::string& name,
@@ -95,8 +112,8 @@ std::size_t EntryReader::option(const std::string& name,
 void describe(const LearnerState& state, safetensors::Contents& contents) {
   const LearnerMemory& all = state.memory;
   const std::uint64_t situations = all.situation.size(), effective = all.orientation.size();
-  EntryWriter entries(contents.metadata);
-  each_field(state.config, "", entries);
+  EntryWriter entries(contents);
+  each_entry(state.config, "", entries);
   entries("seed", state.seed);
   entries("situations", situations);
   entries("effective", effective);
@@ -133,7 +150,7 @@ Random::State random_of(const safetensors::Contents& contents, const std::string
 Learner learner_of(const safetensors::Contents& contents, const std::string& source) {
   LearnerState state;
   const EntryReader entries(contents, source);
-  each_field(state.config, "", entries);
+  each_entry(state.config, "", entries);
   made_of(source, [&] { state.config.validate(); });
   entries("seed", state.seed);
   if (entries.has("pending_situation")) {

@@ -39,7 +39,7 @@ Pose driven(const RobotDef& robot, const Pose& pose, double heading) noexcept {
 // Eq. 2: v_r = -v_l = dtheta track / (2 t_s)
 WheelSpeeds Robot::turn_speeds(int motion) const {
   const double turn = steering_angle(def_, motion) * (kPi / 180.0);
-  const double track = def_.track == 0.0 ? def_.radius : def_.track;
+  const double track = def_.track.value_or(def_.radius);
   const double right = turn * track / (2.0 * def_.sample_time);
   return {-right, right};
 }

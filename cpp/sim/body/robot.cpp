@@ -31,22 +31,8 @@ bool is_finite(const Pose& pose) {
 // --- RobotDef ----------------------------------------------------------------------------------
 
 void RobotDef::validate() const {
-  require_in("radius", radius, 0.01, 10.0, "m");
-  require_above("speed", speed, 0.0, 10.0, "m/s");
-  require_above("sample_time", sample_time, 0.0, 10.0, "s");
-  require_above("speed * sample_time", speed * sample_time, 0.0, 1.0, "m");
-  if (track != 0.0) require_above("track", track, 0.0, 10.0, "m");
-  require_count("the number of steering_angles", static_cast<long long>(steering_angles.size()), 1,
-                65535);
-  for (std::size_t i = 0; i < steering_angles.size(); ++i) {
-    if (!(std::abs(steering_angles[i]) <= 360.0)) {
-      require_in("steering_angles[" + std::to_string(i) + "]", steering_angles[i], -360.0, 360.0,
-                 "degrees");
-    }
-  }
-  require_count("sonar_count", sonar_count, 0, 720);
-  require_in("sonar_fov", sonar_fov, 0.0, 360.0, "degrees");
-  require_in("sonar_range", sonar_range, 0.01, 100.0, "m");
+  detail::require_fields(*this);
+  require_above("RobotDef.speed * sample_time", speed * sample_time, 0.0, 1.0, "m");
 }
 
 std::vector<double> RobotDef::sonar_angles() const {
@@ -59,12 +45,7 @@ std::vector<double> RobotDef::sonar_angles() const {
   return angles;
 }
 
-bool operator==(const RobotDef& a, const RobotDef& b) noexcept {
-  return a.radius == b.radius && a.speed == b.speed && a.sample_time == b.sample_time &&
-         a.track == b.track && a.steering_angles == b.steering_angles &&
-         a.sonar_count == b.sonar_count && a.sonar_fov == b.sonar_fov &&
-         a.sonar_range == b.sonar_range;
-}
+bool operator==(const RobotDef& a, const RobotDef& b) noexcept { return detail::same_fields(a, b); }
 
 // --- Robot -------------------------------------------------------------------------------------
 

@@ -63,12 +63,7 @@ TrialConfig TrialConfig::step5() {
 }
 
 void TrialConfig::validate() const {
-  learner.validate();
-  evaluation.validate();
-  robot.validate();
-  require_above("TrialConfig.goal_radius", goal_radius, 0.0, 100.0, "m");
-  require_in("TrialConfig.cell_size", cell_size, 0.001, 1000.0, "m");
-  require_count("TrialConfig.heading_bins", heading_bins, 1, 3600);
+  detail::require_fields(*this);
   if (clearance_source == ClearanceSource::kSonar) {
     if (!walls_count) {
       throw InvalidValue("TrialConfig.walls_count", "false with clearance_source sonar",
@@ -85,10 +80,7 @@ void TrialConfig::validate() const {
 }
 
 bool operator==(const TrialConfig& a, const TrialConfig& b) noexcept {
-  return a.learner == b.learner && a.evaluation == b.evaluation && a.robot == b.robot &&
-         a.clearance_source == b.clearance_source && a.walls_count == b.walls_count &&
-         a.goal_radius == b.goal_radius && a.cell_size == b.cell_size &&
-         a.heading_bins == b.heading_bins;
+  return detail::same_fields(a, b);
 }
 
 // --- the trial ---------------------------------------------------------------------------------
@@ -117,12 +109,12 @@ Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
   state_ = sense(pose_);
 }
 
-StepRecord Trial::step() {
+Step Trial::step() {
   const OneCall call(under_way_);
   return tick();
 }
 
-StepRecord Trial::tick() {
+Step Trial::tick() {
   const State before = state_;
 
   // situation -> choice
@@ -151,7 +143,7 @@ StepRecord Trial::tick() {
   pose_ = moved.pose;
   state_ = after;
   round_ = std::max(round_, 1);
-  StepRecord step;
+  Step step;
   step.round = round_;
   step.situation = before.situation;
   step.motion = choice.motion;
@@ -283,7 +275,7 @@ bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
   for (std::int64_t i = 0;; ++i) {
     if (options.interrupt && i % kStepsBetweenInterrupts == 0 && options.interrupt()) return false;
     if (i == steps || (until_arrival && state_.arrived)) return true;
-    const StepRecord step = tick();
+    const Step step = tick();
     if (options.rounds_only) {
       record.count(step);
       continue;

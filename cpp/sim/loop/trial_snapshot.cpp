@@ -11,7 +11,6 @@
 #include "file.hpp"
 #include "json.hpp"
 #include "learner_snapshot.hpp"
-#include "loop/record_columns.hpp"
 
 namespace devlearn {
 namespace {
@@ -25,28 +24,7 @@ constexpr const char* kLearner = "learner";
 constexpr const char* kRandom = "random";
 constexpr const char* kNone = "none";
 
-// Every field of a configuration but the steering angles, which are an array.
-template <typename Config, typename Entries>
-void each_field(Config& config, Entries& entries) {
-  each_field(config.learner, "config.learner.", entries);
-  entries("config.evaluation.a1", config.evaluation.a1);
-  entries("config.evaluation.a2", config.evaluation.a2);
-  entries("config.evaluation.a3", config.evaluation.a3);
-  entries("config.evaluation.a4", config.evaluation.a4);
-  entries("config.evaluation.a5", config.evaluation.a5);
-  entries("config.robot.radius", config.robot.radius);
-  entries("config.robot.speed", config.robot.speed);
-  entries("config.robot.sample_time", config.robot.sample_time);
-  entries("config.robot.track", config.robot.track);
-  entries("config.robot.sonar_count", config.robot.sonar_count);
-  entries("config.robot.sonar_fov", config.robot.sonar_fov);
-  entries("config.robot.sonar_range", config.robot.sonar_range);
-  entries("config.clearance_source", config.clearance_source, {"geometric", "sonar"});
-  entries("config.walls_count", config.walls_count);
-  entries("config.goal_radius", config.goal_radius);
-  entries("config.cell_size", config.cell_size);
-  entries("config.heading_bins", config.heading_bins);
-}
+constexpr const char* kConfig = "config.";
 
 std::string box2d_version() {
   return std::to_string(b2_version.major) + "." + std::to_string(b2_version.minor) + "." +
@@ -82,13 +60,12 @@ class Description {
   void describe_trial(const Trial& trial) {
     contents_.metadata["box2d"] = box2d_version();
     contents_.metadata["world"] = trial.world().to_json();
-    EntryWriter entries(contents_.metadata);
+    EntryWriter entries(contents_);
     entries("trial_seed", trial.seed());
     entries("round", trial.round());
-    each_field(trial.config(), entries);
+    each_entry(trial.config(), kConfig, entries);
     pose_ = {trial.pose().x, trial.pose().y, trial.pose().heading};
     add("pose", pose_, "F64");
-    add("steering_angles", trial.config().robot.steering_angles, "F64");
   }
 
   void describe_agent(const Agent& agent) {
@@ -109,7 +86,7 @@ class Description {
 
   void describe_record(const Record& record) {
     record.validate();
-    EntryWriter entries(contents_.metadata);
+    EntryWriter entries(contents_);
     entries("record_steps", std::uint64_t{record.steps()});
     entries("record_rounds", std::uint64_t{record.rounds.size()});
     entries("record_sonars", record.sonar_count);
@@ -121,8 +98,11 @@ class Description {
     const auto add_column = [&](const char* name, const auto& column, const char* dtype) {
       add(std::string("record.") + name, column, dtype);
     };
-    each_step_column(record, add_column);
-    each_pose_column(record, add_column);
+    const auto add_values = [&](auto& column) {
+      add_column(column.name, record.*column.values, column.dtype());
+    };
+    detail::each_column(Record::step_columns(), add_values);
+    detail::each_column(Record::pose_columns(), add_values);
     add_column("rounds.round", numbers_, "I32");
     add_column("rounds.steps", steps_, "I64");
     add_column("rounds.arrived", arrived_, "BOOL");
@@ -177,11 +157,7 @@ Trial trial_of(const Contents& contents, std::shared_ptr<Agent> agent, const std
   const EntryReader entries(contents, source);
   entries("trial_seed", seed);
   entries("round", round);
-  each_field(config, entries);
-  made_of(source, [&] { config.learner.validate(); });
-  const auto motions = static_cast<std::uint64_t>(config.learner.motion_count);
-  config.robot.steering_angles =
-      safetensors::values<double>(contents, "steering_angles", {motions}, source);
+  each_entry(config, kConfig, entries);
   const std::vector<double> pose = safetensors::values<double>(contents, "pose", {3}, source);
   const World world = world_of(contents, source);
   if (agent == nullptr) agent = agent_of(contents, source);
@@ -206,11 +182,11 @@ std::optional<Record> record_of(const Contents& contents, const std::string& sou
     using T = typename std::decay_t<decltype(column)>::value_type;
     column = safetensors::values<T>(contents, std::string("record.") + name, shape, source, dtype);
   };
-  each_step_column(record, [&](const char* name, auto& column, const char* dtype) {
-    take(name, column, {steps}, dtype);
+  detail::each_column(Record::step_columns(), [&](auto& column) {
+    take(column.name, record.*column.values, {steps}, column.dtype());
   });
-  each_pose_column(record, [&](const char* name, auto& column, const char* dtype) {
-    take(name, column, {steps + rounds}, dtype);
+  detail::each_column(Record::pose_columns(), [&](auto& column) {
+    take(column.name, record.*column.values, {steps + rounds}, column.dtype());
   });
   if (record.sonar_count != 0) {
     take("echoes", record.echoes, {steps, static_cast<std::uint64_t>(record.sonar_count)}, "F64");

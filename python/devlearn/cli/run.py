@@ -187,8 +187,10 @@ def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
         name, equals, text = change.partition("=")
         *outer, last = name.split(".")
         place: Any = fields
+        owner: Any = config
         for part in outer:
             place = place.get(part) if isinstance(place, dict) else None
+            owner = getattr(owner, part, None)
         if not equals or not isinstance(place, dict) or last not in place:
             known = ", ".join(_names(config.to_dict()))
             raise InvalidValue("--set", repr(change), f"FIELD=VALUE, where FIELD is one of {known}")
@@ -196,11 +198,13 @@ def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
             place[last] = json.loads(text)
         except ValueError:
             place[last] = text
-    try:
-        return config.from_dict(fields)
-    except TypeError as error:
-        allowed = "a value of each field's type, such as 0.5, true or [1, 2]"
-        raise InvalidValue("--set", repr(" ".join(changes)), allowed) from error
+        try:
+            owner.from_dict({last: place[last]})
+        except InvalidValue:
+            pass  # it may be right with the others
+        except TypeError as error:
+            raise InvalidValue("--set", repr(change), owner.fields()[last]["range"]) from error
+    return config.from_dict(fields)
 
 
 def _names(fields: Mapping[str, Any], outer: str = "") -> Iterator[str]:

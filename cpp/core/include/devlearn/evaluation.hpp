@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "devlearn/detail/fields.hpp"
+
 namespace devlearn {
 
 /// Step 2 of the method, the state evaluation function (Eq. 6): how good it is to be here.
@@ -10,11 +12,25 @@ namespace devlearn {
 ///
 /// It grows towards the target and falls steeply close to an obstacle.
 struct StateEvaluation {
-  double a1 = 20.0;  ///< SEF at the target, far from obstacles; in [-1e6, 1e6]
-  double a2 = 0.3;   ///< pull of the target [1/m^2]; in [0, 1e6]
-  double a3 = 0.2;   ///< push of obstacles; in [0, 1e6]
-  double a4 = 5.0;   ///< log of the push at an obstacle's surface; in [-100, 100]
-  double a5 = 12.0;  ///< how fast the push decays [1/m]; in [0, 1e6]
+  double a1 = 20.0;
+  double a2 = 0.3;
+  double a3 = 0.2;
+  double a4 = 5.0;
+  double a5 = 12.0;
+
+  /// What each of them is, by name: symbol, range, meaning.
+  static constexpr auto fields() {
+    using namespace detail;
+    using E = StateEvaluation;
+    return described(
+        "StateEvaluation",
+        field("a1", &E::a1, "a_1", closed(-1e6, 1e6), "SEF at the target, far from obstacles"),
+        field("a2", &E::a2, "a_2", closed(0.0, 1e6, "1/m^2"), "pull of the target"),
+        field("a3", &E::a3, "a_3", closed(0.0, 1e6), "push of obstacles"),
+        field("a4", &E::a4, "a_4", closed(-100.0, 100.0),
+              "log of the push at an obstacle's surface"),
+        field("a5", &E::a5, "a_5", closed(0.0, 1e6, "1/m"), "how fast the push decays"));
+  }
 
   /// goal_distance: d_g in [0, 1e6] m. obstacle_distance: d_o >= 0 m; infinite where there is no
   /// obstacle. Throws InvalidValue.

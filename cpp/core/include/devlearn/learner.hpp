@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "devlearn/choice.hpp"
+#include "devlearn/detail/fields.hpp"
 #include "devlearn/detail/situation_store.hpp"
 #include "devlearn/explanation.hpp"
 #include "devlearn/motor_memory.hpp"
@@ -28,13 +29,34 @@ enum class WhenExhausted : std::uint8_t {
 
 /// The learner's parameters; the defaults are the paper's.
 struct LearnerConfig {
-  int motion_count = 5;  ///< N_M, in 1 ... 65 535
-  double eta = 0.05;     ///< orientation parameter of Eq. 9, in (0, 1)
-  double sigma = 0.3;    ///< weight of orientation against curiosity in Eq. 7, in (0, 1)
-  double c1 = 0.5;       ///< how fast curiosity wanes, Eq. 5; in [0, 1e6]
-  double c2 = 1.0;       ///< times learned at which curiosity is 1/2, Eq. 5; in [-1e6, 1e6]
-  OnNegative on_negative = OnNegative::kAbandon;         ///< step 4 or step 5
-  WhenExhausted when_exhausted = WhenExhausted::kRetry;  ///< where nothing effective is left
+  int motion_count = 5;
+  double eta = 0.05;
+  double sigma = 0.3;
+  double c1 = 0.5;
+  double c2 = 1.0;
+  OnNegative on_negative = OnNegative::kAbandon;
+  WhenExhausted when_exhausted = WhenExhausted::kRetry;
+
+  /// What each of them is, by name: symbol, range, meaning.
+  static constexpr auto fields() {
+    using namespace detail;
+    using C = LearnerConfig;
+    return described(
+        "LearnerConfig",
+        field("motion_count", &C::motion_count, "N_M", whole(1, 65535), "number of motions"),
+        field("eta", &C::eta, "eta", open(0.0, 1.0), "orientation parameter of Eq. 9"),
+        field("sigma", &C::sigma, "sigma", open(0.0, 1.0),
+              "weight of orientation against curiosity in Eq. 7"),
+        field("c1", &C::c1, "c_1", closed(0.0, 1e6), "how fast curiosity wanes, Eq. 5"),
+        field("c2", &C::c2, "c_2", closed(-1e6, 1e6),
+              "times learned at which curiosity is 1/2, Eq. 5"),
+        field("on_negative", &C::on_negative, "", names("abandon", "weaken"),
+              "what becomes of an exploited motion that met SMF < 0: it moves to the ineffective "
+              "list (step 4), or its orientation falls by Eq. 9 (step 5)"),
+        field("when_exhausted", &C::when_exhausted, "", names("retry", "wander"),
+              "what is done where every motion was tried and none is effective: any motion, and "
+              "one that proves effective enters M_i again, or any motion, and nothing is learned"));
+  }
 
   /// The default: step 4's reading (abandon, retry), under which the paper's results come out.
   static LearnerConfig paper() { return {}; }

@@ -4,29 +4,30 @@
 #include <vector>
 
 #include "devlearn/choice.hpp"
+#include "devlearn/detail/columns.hpp"
 #include "devlearn/learner.hpp"
 #include "devlearn/situation.hpp"
 
 namespace devlearn {
 
-/// Everything about one step of a trial.
-struct StepRecord {
-  std::int32_t round = 0;            ///< from 1; the round the step belongs to
-  SituationId situation = -1;        ///< before the step: S_i, in which the motion was chosen
-  std::int32_t motion = -1;          ///< index in M
-  Kind kind = Kind::kUnstated;       ///< why it was chosen
-  double sef = 0.0;                  ///< after the step: SEF(t+1)
-  double smf = 0.0;                  ///< SEF(t+1) - SEF(t), Eq. 8
-  double smf_used = 0.0;             ///< what was learned from: min(smf, -1) for a collision
-  bool collided = false;             ///< the body touched something during the step
-  bool arrived = false;              ///< after the step: d_g <= goal_radius
-  double goal_distance = 0.0;        ///< after the step: d_g [m]
-  double clearance = 0.0;            ///< after the step: d_o [m]
-  Event event = Event::kNothing;     ///< what the outcome changed
-  std::int32_t reduced = 0;          ///< motions that reduction development removed
-  std::int64_t explored_count = 0;   ///< after the step: NUM_RM
-  std::int64_t effective_count = 0;  ///< after the step: NUM_M
-  Pose pose;                         ///< after the step
+/// Everything about one step of a trial; Record::step_columns says what each is.
+struct Step {
+  std::int32_t round = 0;
+  SituationId situation = -1;
+  std::int32_t motion = -1;
+  Kind kind = Kind::kUnstated;
+  double sef = 0.0;
+  double smf = 0.0;
+  double smf_used = 0.0;
+  bool collided = false;
+  bool arrived = false;
+  double goal_distance = 0.0;
+  double clearance = 0.0;
+  Event event = Event::kNothing;
+  std::int32_t reduced = 0;
+  std::int64_t explored_count = 0;
+  std::int64_t effective_count = 0;
+  Pose pose;  ///< after the step [m, m, degrees]
 };
 
 /// What a round came to.
@@ -41,7 +42,7 @@ struct Round {
 /// rounds only (RunOptions::rounds_only) has no rows and no poses.
 struct Record {
   ///@{
-  /// Of each step, as StepRecord says.
+  /// Of each step, as Step says.
   std::vector<std::int32_t> round;
   std::vector<SituationId> situation;
   std::vector<std::int32_t> motion;
@@ -57,6 +58,45 @@ struct Record {
   /// Poses, steps + rounds values [m, m, degrees].
   std::vector<double> x, y, heading;
   ///@}
+
+  /// The columns of one value a step: what of the step stands in each.
+  static constexpr auto step_columns() {
+    using namespace detail;
+    using R = Record;
+    return std::tuple{
+        column("round", &R::round, &Step::round, from(1), "the round the step belongs to, from 1"),
+        column("situation", &R::situation, &Step::situation, from(0),
+               "before the step: S_i, in which the motion was chosen"),
+        column("motion", &R::motion, &Step::motion, from(0), "index in M"),
+        column("kind", &R::kind, &Step::kind, whole(0, 3), "why it was chosen, a Kind"),
+        column("sef", &R::sef, &Step::sef, Anything{}, "after the step: SEF(t+1)"),
+        column("smf", &R::smf, &Step::smf, Anything{}, "SEF(t+1) - SEF(t), Eq. 8"),
+        column("smf_used", &R::smf_used, &Step::smf_used, Anything{},
+               "what was learned from: min(smf, -1) for a collision"),
+        column("collided", &R::collided, &Step::collided, whole(0, 1),
+               "whether the body touched something during the step"),
+        column("arrived", &R::arrived, &Step::arrived, whole(0, 1),
+               "after the step: d_g <= goal_radius"),
+        column("goal_distance", &R::goal_distance, &Step::goal_distance, Anything{},
+               "after the step: d_g [m]"),
+        column("clearance", &R::clearance, &Step::clearance, Anything{}, "after the step: d_o [m]"),
+        column("event", &R::event, &Step::event, whole(0, 4), "what the outcome changed, an Event"),
+        column("reduced", &R::reduced, &Step::reduced, from(0),
+               "motions that reduction development removed"),
+        column("explored_count", &R::explored_count, &Step::explored_count, from(0),
+               "after the step: NUM_RM"),
+        column("effective_count", &R::effective_count, &Step::effective_count, from(0),
+               "after the step: NUM_M")};
+  }
+  /// The columns of one value a pose.
+  static constexpr auto pose_columns() {
+    using namespace detail;
+    return std::tuple{column("x", &Record::x, &Pose::x, Anything{}, "of the robot's centre [m]"),
+                      column("y", &Record::y, &Pose::y, Anything{}, "likewise [m]"),
+                      column("heading", &Record::heading, &Pose::heading, Anything{},
+                             "counter-clockwise from x [degrees]")};
+  }
+
   std::vector<Round> rounds;   ///< what each round came to
   int sonar_count = 0;         ///< columns of `echoes`; 0 where they were not asked for
   std::vector<double> echoes;  ///< after each step, steps * sonar_count values [m]
@@ -70,9 +110,9 @@ struct Record {
   /// Makes room for so many more steps.
   void reserve(std::size_t more);
   /// Appends a step to the round begun last.
-  void append(const StepRecord& step);
+  void append(const Step& step);
   /// The same in `rounds` alone, as runs do that keep only rounds.
-  void count(const StepRecord& step) noexcept;
+  void count(const Step& step) noexcept;
 
   /// Throws InvalidValue, naming the column, unless all are of the length that the rounds make and
   /// hold what a trial can write: rounds from 1, counts at least 0, known kinds and events.

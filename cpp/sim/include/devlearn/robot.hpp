@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "devlearn/detail/fields.hpp"
 #include "devlearn/situation.hpp"
 #include "devlearn/world.hpp"
 
@@ -12,16 +13,37 @@ class Sonars;
 
 /// The robot of Fig. 1: a circle on two wheels that turns, then drives forward.
 struct RobotDef {
-  double radius = 0.1;       ///< r, in [0.01, 10] m
-  double speed = 0.1;        ///< v, in (0, 10] m/s
-  double sample_time = 0.5;  ///< t_s, in (0, 10] s; a step speed * sample_time is at most 1 m
-  double track = 0.0;        ///< between the wheels [m], for Eq. 2; 0 stands for radius, as printed
-  std::vector<double> steering_angles{-60.0, -30.0, 0.0, 30.0, 60.0};  ///< M [degrees]
-  int sonar_count = 5;                                                 ///< in 0 ... 720
-  double sonar_fov = 180.0;  ///< the sonars' field of view about the heading, in [0, 360] degrees
-  double sonar_range = 2.0;  ///< in [0.01, 100] m
+  double radius = 0.1;
+  double speed = 0.1;
+  double sample_time = 0.5;
+  std::optional<double> track;
+  std::vector<double> steering_angles{-60.0, -30.0, 0.0, 30.0, 60.0};
+  int sonar_count = 5;
+  double sonar_fov = 180.0;
+  double sonar_range = 2.0;
 
-  /// Throws InvalidValue unless every field lies in its range.
+  /// What each of them is, by name: symbol, range, meaning.
+  static constexpr auto fields() {
+    using namespace detail;
+    using R = RobotDef;
+    return described(
+        "RobotDef", field("radius", &R::radius, "r", closed(0.01, 10.0, "m"), "radius of the body"),
+        field("speed", &R::speed, "v", above(0.0, 10.0, "m/s"), "speed of the drive"),
+        field("sample_time", &R::sample_time, "t_s", above(0.0, 10.0, "s"),
+              "how long a step's drive lasts, and its turn by Eq. 2; v t_s is at most 1 m"),
+        field("track", &R::track, "", or_none(above(0.0, 10.0, "m")),
+              "distance between the wheels in Eq. 2; none for the radius, as printed"),
+        field("steering_angles", &R::steering_angles, "M",
+              list(whole(1, 65535), closed(-360.0, 360.0, "degrees")),
+              "the motions: by how much each turns, counter-clockwise"),
+        field("sonar_count", &R::sonar_count, "", whole(0, 720), "number of sonars"),
+        field("sonar_fov", &R::sonar_fov, "", closed(0.0, 360.0, "degrees"),
+              "the sonars' field of view about the heading"),
+        field("sonar_range", &R::sonar_range, "", closed(0.01, 100.0, "m"),
+              "how far a sonar hears, from the body's rim"));
+  }
+
+  /// Throws InvalidValue unless every field lies in its range and a step is at most 1 m.
   void validate() const;
   /// Where each sonar looks, relative to the heading [degrees]: evenly over the field of view from
   /// right to left (at 360 degrees without doubling the rear).

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "devlearn/agent.hpp"
+#include "devlearn/detail/fields.hpp"
 #include "devlearn/evaluation.hpp"
 #include "devlearn/learner.hpp"
 #include "devlearn/record.hpp"
@@ -23,14 +24,36 @@ enum class ClearanceSource : std::uint8_t {
 
 /// Everything a trial needs besides the world and the seed; the defaults are the paper's.
 struct TrialConfig {
-  LearnerConfig learner;       ///< steps 3-5; its motions are the robot's
-  StateEvaluation evaluation;  ///< step 2, Eq. 6
-  RobotDef robot;              ///< Eq. 1-2
-  ClearanceSource clearance_source = ClearanceSource::kGeometric;  ///< where d_o comes from
-  bool walls_count = false;  ///< whether walls count in d_o; `sonar` needs true
-  double goal_radius = 0.1;  ///< arrived when d_g is no more than this; in (0, 100] m
-  double cell_size = 0.25;   ///< of the situation grid, in [0.001, 1000] m
-  int heading_bins = 12;     ///< of the situation grid, in 1 ... 3600
+  LearnerConfig learner;
+  StateEvaluation evaluation;
+  RobotDef robot;
+  ClearanceSource clearance_source = ClearanceSource::kGeometric;
+  bool walls_count = false;
+  double goal_radius = 0.1;
+  double cell_size = 0.25;
+  int heading_bins = 12;
+
+  /// What each of them is, by name: symbol, range, meaning.
+  static constexpr auto fields() {
+    using namespace detail;
+    using C = TrialConfig;
+    return described(
+        "TrialConfig",
+        field("learner", &C::learner, "", Nested{}, "steps 3-5; its motions are the robot's"),
+        field("evaluation", &C::evaluation, "", Nested{}, "step 2, Eq. 6"),
+        field("robot", &C::robot, "", Nested{}, "Eq. 1-2"),
+        field("clearance_source", &C::clearance_source, "", names("geometric", "sonar"),
+              "where d_o of Eq. 6 comes from: the exact distance, or the least echo plus the "
+              "robot's radius"),
+        field("walls_count", &C::walls_count, "", Truth{},
+              "whether walls count in d_o; the clearance source sonar needs it"),
+        field("goal_radius", &C::goal_radius, "", above(0.0, 100.0, "m"),
+              "arrived when d_g is no more than this"),
+        field("cell_size", &C::cell_size, "", closed(0.001, 1000.0, "m"),
+              "side of a cell of the situation grid"),
+        field("heading_bins", &C::heading_bins, "", whole(1, 3600),
+              "headings of the situation grid"));
+  }
 
   /// The default; see LearnerConfig::paper.
   static TrialConfig paper() { return {}; }
@@ -68,7 +91,7 @@ class Trial {
         std::shared_ptr<Agent> agent);
 
   /// One tick of the loop. Where an agent throws, the trial is left as it was.
-  StepRecord step();
+  Step step();
 
   /// `steps` ticks from where the robot is, in the present round.
   Record run(std::int64_t steps, const RunOptions& options = {});
@@ -128,7 +151,7 @@ class Trial {
     double goal_distance = 0.0, clearance = 0.0, sef = 0.0;
     bool arrived = false;
   };
-  StepRecord tick();
+  Step tick();
   void put(const Pose& pose);
   State sense(const Pose& pose) const;
   double clearance(const Pose& pose) const;

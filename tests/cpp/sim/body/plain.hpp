@@ -227,7 +227,7 @@ inline Record free_learning(const World& world, const TrialConfig& config, std::
   double before = sef(pose, clearance(world, {pose.x, pose.y}));
   record.begin_round(1, pose);
   for (int i = 0; i < steps; ++i) {
-    StepRecord row;
+    Step row;
     row.situation = trial.grid().situation(pose.x, pose.y, pose.heading);
     row.motion = learner.choose(row.situation).motion;
     const Robot::Move moved = step(robot, pose, row.motion);

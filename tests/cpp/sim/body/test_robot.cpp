@@ -144,29 +144,29 @@ TEST_CASE("A robot out of range is refused by the name of its field") {
     CHECK_THROWS_AS(Robot(World(), def), InvalidValue);
   };
   for (const double bad : {0.009, 10.1, -1.0, nan, kInfinite}) {
-    refused("radius", [=](RobotDef& d) { d.radius = bad; });
+    refused("RobotDef.radius", [=](RobotDef& d) { d.radius = bad; });
   }
   for (const double bad : {0.0, 10.1, -1.0, nan, kInfinite}) {
-    refused("speed", [=](RobotDef& d) { d.speed = bad; });
-    refused("sample_time", [=](RobotDef& d) { d.sample_time = bad; });
+    refused("RobotDef.speed", [=](RobotDef& d) { d.speed = bad; });
+    refused("RobotDef.sample_time", [=](RobotDef& d) { d.sample_time = bad; });
   }
   for (const double bad : {10.1, -1.0, nan}) {
-    refused("track", [=](RobotDef& d) { d.track = bad; });
+    refused("RobotDef.track", [=](RobotDef& d) { d.track = bad; });
   }
-  refused("speed * sample_time", [](RobotDef& d) { d.speed = 2.1; });
-  refused("the number of steering_angles", [](RobotDef& d) { d.steering_angles.clear(); });
-  refused("the number of steering_angles", [](RobotDef& d) { d.steering_angles.resize(65536); });
+  refused("RobotDef.speed * sample_time", [](RobotDef& d) { d.speed = 2.1; });
+  refused("RobotDef.steering_angles", [](RobotDef& d) { d.steering_angles.clear(); });
+  refused("RobotDef.steering_angles", [](RobotDef& d) { d.steering_angles.resize(65536); });
   for (const double bad : {360.1, nan, kInfinite}) {
-    refused("steering_angles[3]", [=](RobotDef& d) { d.steering_angles[3] = bad; });
+    refused("RobotDef.steering_angles[3]", [=](RobotDef& d) { d.steering_angles[3] = bad; });
   }
   for (const int bad : {-1, 721}) {
-    refused("sonar_count", [=](RobotDef& d) { d.sonar_count = bad; });
+    refused("RobotDef.sonar_count", [=](RobotDef& d) { d.sonar_count = bad; });
   }
   for (const double bad : {-0.1, 360.1, nan}) {
-    refused("sonar_fov", [=](RobotDef& d) { d.sonar_fov = bad; });
+    refused("RobotDef.sonar_fov", [=](RobotDef& d) { d.sonar_fov = bad; });
   }
   for (const double bad : {0.009, 100.1, nan}) {
-    refused("sonar_range", [=](RobotDef& d) { d.sonar_range = bad; });
+    refused("RobotDef.sonar_range", [=](RobotDef& d) { d.sonar_range = bad; });
   }
 }
 

@@ -6,12 +6,12 @@ using devlearn::Event;
 using devlearn::Kind;
 using devlearn::Pose;
 using devlearn::Record;
-using devlearn::StepRecord;
+using devlearn::Step;
 
 namespace {
 
-StepRecord step_at(double x, bool arrived = false) {
-  StepRecord step;
+Step step_at(double x, bool arrived = false) {
+  Step step;
   step.round = 3;
   step.situation = 41;
   step.motion = 2;

@@ -375,14 +375,14 @@ TEST_CASE("a trial's snapshot that lies is refused, naming the lie") {
   SUBCASE("about the configuration") {
     CHECK(with_entry("config.goal_radius", "nan") == "TrialConfig.goal_radius");
     CHECK(with_entry("config.goal_radius", "1e999") == "config.goal_radius");
-    CHECK(with_entry("config.learner.motion_count", "6") == "steering_angles");
+    CHECK(with_entry("config.learner.motion_count", "6") == "TrialConfig.learner.motion_count");
     CHECK(with_entry("config.learner.motion_count", "-5") == "LearnerConfig.motion_count");
     CHECK(with_entry("config.clearance_source", "guess") == "config.clearance_source");
     CHECK(with_entry("config.clearance_source", "sonar") == "TrialConfig.walls_count");
-    CHECK(with_entry("config.robot.sonar_count", "1000000000") == "sonar_count");
+    CHECK(with_entry("config.robot.sonar_count", "1000000000") == "RobotDef.sonar_count");
     CHECK(with_entry("config.heading_bins", "0") == "TrialConfig.heading_bins");
     CHECK(with_entry("trial_seed", "-1") == "trial_seed");
-    CHECK(with("steering_angles", 0, nan) == "steering_angles[0]");
+    CHECK(with("steering_angles", 0, nan) == "RobotDef.steering_angles[0]");
   }
   SUBCASE("about the agent") {
     CHECK(with_entry("agent", "q-learning") == "agent");

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "devlearn/detail/fields.hpp"
+#include "devlearn/detail/require.hpp"
+
+/// What a Record says of its columns, once, right below them: which member of a row (a step, or a
+/// pose) stands in which, what it may be and what it means.
+namespace devlearn::detail {
+
+/// Any number, NaN too.
+struct Anything {};
+
+/// Whole numbers from `low` to the largest of their type.
+constexpr WholeNumbers from(long long low) { return {low, std::numeric_limits<long long>::max()}; }
+
+/// One column. Enums stand in it by their number.
+template <typename Record, typename T, typename Row, typename Member, typename Range>
+struct Column {
+  using Stored = T;
+  using Value = Member;
+
+  const char* name;
+  std::vector<T> Record::*values;
+  Member Row::*of;
+  Range range;
+  const char* doc;  ///< without a full stop
+
+  /// As safetensors names it.
+  static constexpr const char* dtype() {
+    if constexpr (std::is_same_v<Member, bool>) return "BOOL";
+    if constexpr (std::is_same_v<T, std::uint8_t>) return "U8";
+    if constexpr (std::is_same_v<T, std::int32_t>) return "I32";
+    if constexpr (std::is_same_v<T, std::int64_t>) return "I64";
+    if constexpr (std::is_same_v<T, double>) return "F64";
+  }
+
+  void append(Record& record, const Row& row) const {
+    (record.*values).push_back(static_cast<T>(row.*of));
+  }
+
+  /// Throws InvalidValue unless each of the values may stand here.
+  void require_values(const Record& record) const {
+    if constexpr (!std::is_same_v<Range, Anything>) {
+      const long long most = std::min<long long>(range.high, std::numeric_limits<T>::max());
+      const std::vector<T>& all = record.*values;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i] >= range.low && all[i] <= most) continue;
+        require_count("record." + std::string(name) + "[" + std::to_string(i) + "]", all[i],
+                      range.low, most);
+      }
+    }
+  }
+};
+
+template <typename Record, typename T, typename Row, typename Member, typename Range>
+constexpr Column<Record, T, Row, Member, Range> column(const char* name,
+                                                       std::vector<T> Record::*values,
+                                                       Member Row::*of, Range range,
+                                                       const char* doc) {
+  return {name, values, of, range, doc};
+}
+
+/// visit(column) for each of them.
+template <typename Columns, typename Visit>
+void each_column(const Columns& columns, const Visit& visit) {
+  std::apply([&](const auto&... column) { (visit(column), ...); }, columns);
+}
+
+}  // namespace devlearn::detail

@@ -1,0 +1,161 @@
+"""What a field of a configuration, and a column of a record, is: told once, seen everywhere."""
+
+import copy
+import inspect
+import json
+import pickle
+import re
+from pathlib import Path
+
+import devlearn
+import pytest
+from devlearn import LearnerConfig, Record, RobotDef, StateEvaluation, TrialConfig, _core
+from devlearn.record import POSE_COLUMNS, STEP_COLUMNS
+
+SOURCE = Path(__file__).parents[2]
+CONFIGS = [LearnerConfig, StateEvaluation, RobotDef, TrialConfig]
+each_config = pytest.mark.parametrize("kind", CONFIGS)
+NO, WHOLE = "", "a whole number in [{}, {}]"
+
+# As the method and the guides have them: symbol, unit, range, default.
+EXPECTED = {
+    LearnerConfig: {
+        "motion_count": ("N_M", NO, WHOLE.format(1, 65535), 5),
+        "eta": ("eta", NO, "in (0, 1)", 0.05),
+        "sigma": ("sigma", NO, "in (0, 1)", 0.3),
+        "c1": ("c_1", NO, "in [0, 1e+06]", 0.5),
+        "c2": ("c_2", NO, "in [-1e+06, 1e+06]", 1.0),
+        "on_negative": (NO, NO, "'abandon' or 'weaken'", "abandon"),
+        "when_exhausted": (NO, NO, "'retry' or 'wander'", "retry"),
+    },
+    StateEvaluation: {
+        "a1": ("a_1", NO, "in [-1e+06, 1e+06]", 20.0),
+        "a2": ("a_2", "1/m^2", "in [0, 1e+06] 1/m^2", 0.3),
+        "a3": ("a_3", NO, "in [0, 1e+06]", 0.2),
+        "a4": ("a_4", NO, "in [-100, 100]", 5.0),
+        "a5": ("a_5", "1/m", "in [0, 1e+06] 1/m", 12.0),
+    },
+    RobotDef: {
+        "radius": ("r", "m", "in [0.01, 10] m", 0.1),
+        "speed": ("v", "m/s", "in (0, 10] m/s", 0.1),
+        "sample_time": ("t_s", "s", "in (0, 10] s", 0.5),
+        "track": (NO, "m", "in (0, 10] m, or none", None),
+        "steering_angles": (
+            "M",
+            "degrees",
+            "1 ... 65535 numbers, each in [-360, 360] degrees",
+            [-60.0, -30.0, 0.0, 30.0, 60.0],
+        ),
+        "sonar_count": (NO, NO, WHOLE.format(0, 720), 5),
+        "sonar_fov": (NO, "degrees", "in [0, 360] degrees", 180.0),
+        "sonar_range": (NO, "m", "in [0.01, 100] m", 2.0),
+    },
+    TrialConfig: {
+        "learner": (NO, NO, "a LearnerConfig", LearnerConfig()),
+        "evaluation": (NO, NO, "a StateEvaluation", StateEvaluation()),
+        "robot": (NO, NO, "a RobotDef", RobotDef()),
+        "clearance_source": (NO, NO, "'geometric' or 'sonar'", "geometric"),
+        "walls_count": (NO, NO, "true or false", False),
+        "goal_radius": (NO, "m", "in (0, 100] m", 0.1),
+        "cell_size": (NO, "m", "in [0.001, 1000] m", 0.25),
+        "heading_bins": (NO, NO, WHOLE.format(1, 3600), 12),
+    },
+}
+
+
+@each_config
+def test_each_field_is_what_the_method_says(kind):
+    told = {
+        name: (field["symbol"], field["unit"], field["range"], field["default"])
+        for name, field in kind.fields().items()
+    }
+    assert told == EXPECTED[kind]
+    assert all(field["doc"] for field in kind.fields().values())
+
+
+@each_config
+def test_every_field_is_an_argument_an_attribute_and_in_the_dict(kind):
+    names = list(kind.fields())
+    signature = re.match(r"__init__\(self: [\w.]+, (.*)\) -> None", kind.__init__.__doc__)[1]
+    assert re.findall(r"(\w+): ", signature) == names
+    assert list(kind().to_dict()) == names
+    for name, field in kind.fields().items():
+        assert getattr(kind(), name) == field["default"]
+        assert kind(**{name: field["default"]}) == kind()
+        with pytest.raises(AttributeError):
+            setattr(kind(), name, field["default"])
+    assert kind(*(field["default"] for field in kind.fields().values())) == kind()
+
+
+def other(value):
+    """Another value near this one that a field with it may have."""
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, int):
+        return value + 1
+    if isinstance(value, list):
+        return [1.5 * each for each in value]
+    if isinstance(value, str):
+        names = {"abandon": "weaken", "retry": "wander", "geometric": "sonar"}
+        return names[value]
+    if hasattr(value, "fields"):
+        changes = {name: other(field["default"]) for name, field in value.fields().items()}
+        changes.pop("motion_count", None)  # is the number of steering angles
+        return type(value)(**changes)
+    return 0.15 if value is None else 1.5 * value
+
+
+@each_config
+def test_every_field_is_compared_replaced_and_survives_dict_json_repr_pickle_and_copy(kind):
+    for name, field in kind.fields().items():
+        value = other(field["default"])
+        fields = {name: value} | ({"walls_count": True} if value == "sonar" else {})
+        changed = kind(**fields)
+        assert changed != kind()
+        assert getattr(changed, name) == value
+        for again in (
+            kind().replace(**fields),
+            kind.from_dict(fields),
+            kind.from_dict(json.loads(json.dumps(changed.to_dict()))),
+            eval(repr(changed), vars(devlearn)),
+            pickle.loads(pickle.dumps(changed)),
+            copy.deepcopy(changed),
+        ):
+            assert again == changed
+            assert hash(again) == hash(changed)
+
+
+@each_config
+def test_help_says_of_every_field_what_it_is_its_unit_and_its_range(kind):
+    stub = (SOURCE / "python/devlearn/_core.pyi").read_text(encoding="utf-8")
+    whole = " ".join(kind.__doc__.split())
+    for name, field in kind.fields().items():
+        doc = " ".join(getattr(kind, name).__doc__.split())
+        assert doc.startswith(field["symbol"])
+        assert doc.endswith(f"{field['doc'][1:]}; {field['range']}.")
+        assert field["unit"] in doc
+        assert f" {name} {doc}" in whole
+        assert f"def {name}(self)" in stub
+        assert field["range"] in stub
+
+
+# --- columns -------------------------------------------------------------------------------------
+
+
+def test_every_column_is_an_attribute_of_a_record_with_its_type_and_in_its_help():
+    columns = STEP_COLUMNS | POSE_COLUMNS
+    annotations = dict(Record.__annotations__)
+    for name in ("rounds", "echoes"):
+        annotations.pop(name)
+    assert list(annotations) == list(columns)
+    for name, dtype in columns.items():
+        assert annotations[name].replace("bool_", "bool") == f"npt.NDArray[np.{dtype}]"
+        assert f"``{name}``" in Record.__doc__
+    assert inspect.getdoc(Record).startswith("What happened in a trial")
+
+
+def test_a_step_has_every_column_of_a_step_and_says_what_it_is():
+    step = devlearn.Trial(devlearn.World()).step()
+    for name, (_, doc) in _core.step_columns.items():
+        assert hasattr(step, name)
+        assert getattr(devlearn.Step, name).__doc__ == doc[0].upper() + doc[1:] + "."
