@@ -39,12 +39,14 @@ __all__: list[str] = [
     "commit",
     "direction",
     "exponential",
+    "heading_of_yaw",
     "pose_columns",
     "record_in_snapshot",
     "shortest_path",
     "step_columns",
     "wrapped_heading",
     "write_file",
+    "yaw_of_heading",
 ]
 
 class Random:
@@ -1372,6 +1374,11 @@ def exponential(x: typing.SupportsFloat | typing.SupportsIndex) -> float:
     e**x within 1 ulp. Unlike math.exp its last bits are the same on every machine; inf where it overflows.
     """
 
+def heading_of_yaw(yaw: typing.SupportsFloat | typing.SupportsIndex) -> float:
+    """
+    Pose.from_radians, its heading alone.
+    """
+
 def record_in_snapshot(snapshot: bytes, source: str) -> typing.Any:
     """
     The record in a trial's snapshot, for Record.load.
@@ -1394,6 +1401,11 @@ def wrapped_heading(heading: typing.SupportsFloat | typing.SupportsIndex) -> flo
 def write_file(path: typing.Any, content: bytes) -> None:
     """
     Writes a file as a whole: to the side, flushed to the disk, renamed, its folder flushed. Raises FileError; then what was there before is whole.
+    """
+
+def yaw_of_heading(heading: typing.SupportsFloat | typing.SupportsIndex) -> float:
+    """
+    Pose.yaw of a heading.
     """
 
 __version__: str

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ._core import Event, Kind
+from ._core import Event, Kind, heading_of_yaw, yaw_of_heading
 
 
 class Pose(NamedTuple):
@@ -14,6 +14,19 @@ class Pose(NamedTuple):
     x: float
     y: float
     heading: float
+
+    @classmethod
+    def from_radians(cls, x: float, y: float, yaw: float) -> Pose:
+        """The pose whose heading is yaw [radians], brought into [0, 360) degrees.
+
+        Raises InvalidValue unless yaw is finite.
+        """
+        return cls(x, y, heading_of_yaw(yaw))
+
+    @property
+    def yaw(self) -> float:
+        """The heading in (-pi, pi] radians."""
+        return yaw_of_heading(self.heading)
 
 
 class Choice(NamedTuple):

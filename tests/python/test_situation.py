@@ -111,3 +111,14 @@ def test_the_trials_grid_agrees_with_one_made_by_hand():
 
 def test_arrays_that_do_not_broadcast_are_refused():
     refused(lambda: SituationGrid().situation(np.zeros(3), np.zeros(2), 0), "the arrays' shapes")
+
+
+@given(st.floats(-1e6, 1e6))
+def test_a_heading_in_radians_is_one_in_degrees_and_back(yaw):
+    pose = Pose.from_radians(1, 2, yaw)
+    assert pose[:2] == (1, 2)
+    assert 0 <= pose.heading < 360
+    assert -np.pi < pose.yaw <= np.pi
+    assert abs(np.exp(1j * pose.yaw) - np.exp(1j * yaw)) <= 1e-9
+    for given_yaw in (np.inf, np.nan):
+        refused(lambda given_yaw=given_yaw: Pose.from_radians(0, 0, given_yaw), "yaw")
