@@ -65,10 +65,8 @@ Surfaces::Surfaces(double width, double height, std::vector<std::vector<Point>> 
     bounds.push_back(
         apply(surface, [](const auto& shape) { return bound_of(shape).grown_by(kMargin); }));
   }
-  surfaces_near_ = BoxTree(bounds);
-  bounds.clear();
   for (const Outline& outline : outlines_) bounds.push_back(outline.bound);
-  outlines_near_ = BoxTree(bounds);
+  near_ = BoxTree(bounds);
   root_ = {{-kBorder, -kBorder}, std::max(width, height) + 2.0 * kBorder};
   finest_per_metre_ = static_cast<double>(kFinest) / root_.side;
   build();
@@ -198,10 +196,19 @@ double Surfaces::distance(Point p) const noexcept {
   return least;
 }
 
+// Calls meet(surface) as BoxTree::search does, outlines left out.
+template <typename Meet>
+void Surfaces::search(const Box& place, double& limit, const Meet& meet) const {
+  const auto count = static_cast<std::uint32_t>(edges_.size() + circles_.size());
+  near_.search(place, limit, [&](std::uint32_t i) {
+    if (kWalls + i < count) meet(kWalls + i);
+  });
+}
+
 double Surfaces::searched_distance(Point p) const noexcept {
   double least = kInfinite, limit = kInfinite;
-  surfaces_near_.search({p, p}, limit, [&](std::uint32_t i) {
-    least = std::min(least, distance(kWalls + i, p));
+  search({p, p}, limit, [&](std::uint32_t surface) {
+    least = std::min(least, distance(surface, p));
     limit = least * least;
   });
   return least;
@@ -210,9 +217,11 @@ double Surfaces::searched_distance(Point p) const noexcept {
 bool Surfaces::inside_outline(const Cell& leaf, Point p) const noexcept {
   bool inside = false;
   if (leaf.kind == Cell::Kind::kSearched) {
+    const auto first = static_cast<std::uint32_t>(edges_.size() + circles_.size()) - kWalls;
     double limit = 0.0;
-    outlines_near_.search({p, p}, limit,
-                          [&](std::uint32_t i) { inside = inside || outlines_[i].contains(p); });
+    near_.search({p, p}, limit, [&](std::uint32_t i) {
+      inside = inside || (i >= first && outlines_[i - first].contains(p));
+    });
   }
   for (std::uint32_t i = leaf.outlines; i < leaf.last && !inside; ++i) {
     inside = outlines_[held_[i]].contains(p);
@@ -236,9 +245,9 @@ bool Surfaces::keep_clear_of(Point p, Point q, double room) const noexcept {
   if (inside_outline(leaf(p), p)) return false;
   bool clear = true;
   double limit = room * room;
-  surfaces_near_.search(Box{p, p}.joined({q, q}).grown_by(kMargin), limit, [&](std::uint32_t i) {
+  search(Box{p, p}.joined({q, q}).grown_by(kMargin), limit, [&](std::uint32_t surface) {
     const double distance =
-        apply(kWalls + i, [&](const auto& shape) { return swept_distance(shape, p, q); });
+        apply(surface, [&](const auto& shape) { return swept_distance(shape, p, q); });
     if (distance > room) return;
     clear = false;
     limit = -1.0;
@@ -256,8 +265,8 @@ std::vector<std::uint32_t> Surfaces::around(Point p, double reach) const {
     if (reached(i)) found.push_back(i);
   }
   double limit = reach * reach;
-  surfaces_near_.search({p, p}, limit, [&](std::uint32_t i) {
-    if (reached(kWalls + i)) found.push_back(kWalls + i);
+  search({p, p}, limit, [&](std::uint32_t surface) {
+    if (reached(surface)) found.push_back(surface);
   });
   std::sort(found.begin(), found.end());
   return found;

@@ -85,6 +85,8 @@ class Surfaces {
   void build();
   Candidates held_in(const Square& square, const Candidates& candidates) const;
   Cell listed(const Candidates& held);
+  template <typename Meet>
+  void search(const Box& place, double& limit, const Meet& meet) const;
   double distance(std::uint32_t surface, Point p) const noexcept;
   double searched_distance(Point p) const noexcept;
   const Cell& leaf(Point p) const noexcept;
@@ -95,8 +97,8 @@ class Surfaces {
   std::vector<Circle> circles_;
   std::vector<Outline> outlines_;
 
-  BoxTree surfaces_near_;  // of all but the walls, numbered from the first that is none
-  BoxTree outlines_near_;
+  BoxTree
+      near_;  // of all surfaces but the walls, numbered from the first that is none; then outlines
 
   Square root_;
   double finest_per_metre_ = 0.0;
