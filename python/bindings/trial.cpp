@@ -7,6 +7,7 @@
 #include "agents.hpp"
 #include "bindings.hpp"
 #include "config.hpp"
+#include "loop/config_file.hpp"
 #include "record_object.hpp"
 
 namespace devlearn::python {
@@ -136,6 +137,11 @@ void bind_config(py::module_& m) {
       m, "Everything a trial needs besides the world and the seed; the defaults are the paper's.")
       .def_static("paper", &TrialConfig::paper, "The default, with LearnerConfig.paper().")
       .def_static("step5", &TrialConfig::step5, "The other reading, with LearnerConfig.step5().");
+  m.def(
+      "load_config", [](const py::object& path) { return load_config(file_path(path)); },
+      py::arg("path"),
+      "A TrialConfig from a JSON file, an object of its fields; those left out keep their "
+      "defaults. Raises FileError.");
 }
 
 void bind_messages(py::module_& m) {

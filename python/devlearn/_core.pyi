@@ -40,6 +40,7 @@ __all__: list[str] = [
     "direction",
     "exponential",
     "heading_of_yaw",
+    "load_config",
     "pose_columns",
     "record_in_snapshot",
     "shortest_path",
@@ -1377,6 +1378,11 @@ def exponential(x: typing.SupportsFloat | typing.SupportsIndex) -> float:
 def heading_of_yaw(yaw: typing.SupportsFloat | typing.SupportsIndex) -> float:
     """
     Pose.from_radians, its heading alone.
+    """
+
+def load_config(path: typing.Any) -> TrialConfig:
+    """
+    A TrialConfig from a JSON file, an object of its fields; those left out keep their defaults. Raises FileError.
     """
 
 def record_in_snapshot(snapshot: bytes, source: str) -> typing.Any:

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "devlearn/error.hpp"
+
 namespace devlearn {
 
 /// A file on the side, `path` with ".devlearn-tmp" after it, that either takes the place of `path`
@@ -34,5 +36,17 @@ class SideFile {
 std::vector<std::byte> bytes_of_file(const std::string& path);
 /// The text of a file of any kind, of a longer one `most` bytes and another. Throws FileError.
 std::string text_of_file(const std::string& path, std::size_t most);
+
+/// What `make` makes of a file's values; what it refuses is refused as the file's fault.
+template <typename Make>
+auto made_of(const std::string& source, const Make& make) -> decltype(make()) {
+  try {
+    return make();
+  } catch (const FileError&) {
+    throw;
+  } catch (const InvalidValue& error) {
+    throw FileError(source, error.quantity(), error.value(), error.allowed());
+  }
+}
 
 }  // namespace devlearn

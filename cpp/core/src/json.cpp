@@ -166,7 +166,7 @@ Node Node::operator[](std::size_t element) const {
   return Node(array().at(element), *this, element);
 }
 
-void Node::require_known(std::initializer_list<std::string_view> names) const {
+void Node::require_known(const std::vector<std::string_view>& names) const {
   each_field([&](const std::string& name, const Node& field) {
     if (std::find(names.begin(), names.end(), name) != names.end()) return;
     std::string known;
@@ -175,20 +175,22 @@ void Node::require_known(std::initializer_list<std::string_view> names) const {
   });
 }
 
-const std::string& Node::text() const { return as<std::string>("a text"); }
+const std::string& Node::text(const std::string& allowed) const { return as<std::string>(allowed); }
 
-double Node::number() const {
+bool Node::truth(const std::string& allowed) const { return as<bool>(allowed); }
+
+double Node::number(const std::string& allowed) const {
   if (const auto* whole = std::get_if<std::uint64_t>(&value_.is)) {
     return static_cast<double>(*whole);
   }
   if (const auto* negative = std::get_if<std::int64_t>(&value_.is)) {
     return static_cast<double>(*negative);
   }
-  return as<double>("a number");
+  return as<double>(allowed);
 }
 
-std::uint64_t Node::whole_number() const {
-  return as<std::uint64_t>("a whole number in [0, 2^64 - 1]");
+std::uint64_t Node::whole_number(const std::string& allowed) const {
+  return as<std::uint64_t>(allowed);
 }
 
 void Node::refuse(const std::string& allowed) const {
@@ -200,7 +202,7 @@ void Node::refuse(const std::string& value, const std::string& allowed) const {
 }
 
 template <typename T>
-const T& Node::as(const char* allowed) const {
+const T& Node::as(const std::string& allowed) const {
   const T* const value = std::get_if<T>(&value_.is);
   if (value == nullptr) refuse(allowed);
   return *value;

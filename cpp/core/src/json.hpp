@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -69,11 +68,15 @@ class Node {
     for (const auto& [name, value] : object()) each(name, Node(value, *this, name));
   }
   /// Refuses fields of other names.
-  void require_known(std::initializer_list<std::string_view> names) const;
+  void require_known(const std::vector<std::string_view>& names) const;
 
-  const std::string& text() const;
-  double number() const;
-  std::uint64_t whole_number() const;  ///< in [0, 2^64 - 1]
+  bool is_null() const { return std::holds_alternative<std::nullptr_t>(value_.is); }
+  // `allowed` is what a refusal says.
+  const std::string& text(const std::string& allowed = "a text") const;
+  bool truth(const std::string& allowed = "true or false") const;
+  double number(const std::string& allowed = "a number") const;
+  /// In [0, 2^64 - 1].
+  std::uint64_t whole_number(const std::string& allowed = "a whole number of 64 bits") const;
 
   /// Refuses the value.
   [[noreturn]] void refuse(const std::string& allowed) const;
@@ -87,7 +90,7 @@ class Node {
       : document_(parent.document_), value_(value), parent_(&parent), step_(step) {}
 
   template <typename T>
-  const T& as(const char* allowed) const;
+  const T& as(const std::string& allowed) const;
   const Object& object() const;
   const Array& array() const;
   std::string path() const;

@@ -121,12 +121,7 @@ struct ObstacleText {
 
 World World::parse(const std::string& text, const std::string& source) {
   const json::Document document(text, source, kLimits);
-  WorldDef def = read_world(document.root());
-  try {
-    return World(std::move(def));
-  } catch (const InvalidValue& e) {
-    throw FileError(source, e.quantity(), e.value(), e.allowed());
-  }
+  return made_of(source, [&] { return World(read_world(document.root())); });
 }
 
 World World::load(const std::string& path) {

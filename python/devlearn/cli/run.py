@@ -97,7 +97,7 @@ def _main(options: argparse.Namespace) -> int:
     world = _core.World.load(options.world)
     config = schedule.preset(options.preset)
     if options.config is not None:
-        config = _read_config(options.config)
+        config = _core.load_config(options.config)
     config = _changed(config, options.set)
     _core.Trial(world, config, options.seed)  # refuses what cannot run
     folder = made_folder(options.output)
@@ -159,24 +159,6 @@ def _draw(folder: Path, made: Run) -> None:
         print(f"no figures: {error}", file=sys.stderr)
         return
     save_figure(folder, draw_run(made.trial, made.paths))
-
-
-def _read_config(path: str) -> TrialConfig:
-    from .._core import TrialConfig
-    from ..errors import FileError, InvalidValue
-
-    allowed = "a TrialConfig as JSON"
-    try:
-        fields = json.loads(Path(path).read_text(encoding="utf-8"))
-        return TrialConfig.from_dict(fields)
-    except InvalidValue as error:
-        raise FileError(path, error.quantity, error.value, error.allowed) from error
-    except TypeError as error:
-        raise FileError(path, "", "a value of another type", allowed) from error
-    except OSError as error:
-        raise FileError(path, "", error.strerror, allowed) from error
-    except (ValueError, RecursionError) as error:
-        raise FileError(path, "", error, allowed) from error
 
 
 def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:

@@ -355,15 +355,20 @@ def test_run_refuses_in_one_line_what_cannot_run(tmp_path, capsys, options, says
 @pytest.mark.parametrize(
     ("content", "says"),
     [
-        (b"{bad", "Expecting property name"),
-        (b"\xff\xfe\x00", "decode"),
-        (b"", "Expecting value"),
-        (b"[1]", "expected a TrialConfig as JSON"),
-        (b"NaN", "expected a TrialConfig as JSON"),
-        (b'{"learner": {"sigma": "x"}}', "expected a TrialConfig as JSON"),
-        (b'{"learner": {"sigma": 7}}', "LearnerConfig.sigma: got 7; expected in (0, 1)"),
+        (b"{bad", "line 1, column 2"),
+        (b"\xff\xfe", "line 1, column 1"),
+        (b"\xef\xbb\xbf{}", "a byte order mark"),
+        (b"{}\0", "a byte of zero"),
+        (b"", "line 1, column 1"),
+        (b"[1]", "expected an object"),
+        (b"NaN", "expected JSON text in UTF-8"),
+        (b'{"learner": {"sigma": "x"}}', 'learner.sigma: got "x"; expected in (0, 1)'),
+        (b'{"learner": {"sigma": 7}}', "learner.sigma: got 7; expected in (0, 1)"),
+        (b'{"learner": {"sigma": 0.1, "sigma": 0.1}}', "learner.sigma: got the field again"),
+        (b'{"heading_bins": true}', "heading_bins: got true; expected a whole number in [1, 3600]"),
+        (b'{"walls_count": 1}', "walls_count: got 1; expected true or false"),
         (b'{"nope": 1}', "nope: got an unknown field; expected one of learner, "),
-        (b"[" * 100_000, "expected a TrialConfig as JSON"),
+        (b"[" * 100_000, "expected at most 4 levels"),
     ],
 )
 def test_run_refuses_a_configuration_by_its_file(tmp_path, capsys, content, says):

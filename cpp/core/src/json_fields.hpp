@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "devlearn/detail/fields.hpp"
+#include "json.hpp"
+
+namespace devlearn::json {
+
+template <typename Def>
+Def def_at(const Node& node);
+
+/// A field's value, which lies in its range.
+template <typename Field>
+typename Field::Value value_at(const Node& node, const Field& field) {
+  using T = typename Field::Value;
+  using Range = std::decay_t<decltype(field.range)>;
+  if constexpr (std::is_same_v<Range, detail::Nested>) {
+    return def_at<T>(node);
+  } else if constexpr (std::is_same_v<Range, detail::List>) {
+    const auto& [count, each] = field.range;
+    if (!count.allows(static_cast<long long>(node.size()))) node.refuse(field.allowed());
+    T values;
+    node.each_element([&](const Node& element) {
+      values.push_back(element.number(each.text()));
+      if (!each.allows(values.back())) element.refuse(each.text());
+    });
+    return values;
+  } else if constexpr (std::is_enum_v<T>) {
+    const auto& names = field.range.names;
+    const auto found = std::find(names.begin(), names.end(), node.text(field.allowed()));
+    if (found == names.end()) node.refuse(field.allowed());
+    return static_cast<T>(found - names.begin());
+  } else if constexpr (std::is_same_v<Range, detail::Truth>) {
+    return node.truth(field.allowed());
+  } else if constexpr (std::is_same_v<Range, detail::WholeNumbers>) {
+    const auto value = static_cast<long long>(node.whole_number(field.allowed()));
+    if (!field.range.allows(value)) node.refuse(field.allowed());
+    return static_cast<T>(value);
+  } else {
+    if (std::is_same_v<Range, detail::OrNone> && node.is_null()) return T{};
+    const T value = node.number(field.allowed());
+    if (!field.range.allows(value)) node.refuse(field.allowed());
+    return value;
+  }
+}
+
+/// A Def from an object of its fields; those left out keep their defaults. Laws of several fields
+/// together are the Def's own: validate().
+template <typename Def>
+Def def_at(const Node& node) {
+  Def def;
+  std::vector<std::string_view> names;
+  detail::each_field<Def>([&](const auto& field) { names.push_back(field.name); });
+  node.require_known(names);
+  detail::each_field<Def>([&](const auto& field) {
+    if (node.has(field.name)) def.*field.member = value_at(node[field.name], field);
+  });
+  return def;
+}
+
+}  // namespace devlearn::json
