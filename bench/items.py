@@ -109,11 +109,9 @@ FIGURES = {
 # Where the time of a step of the closed loop goes [ns, instructions], contacts by their share.
 STAGES = {
     "choose and learn": lambda m: m["learner/replay_from_nothing"],
-    "move, clearance with it, where nothing is touched": lambda m: (
-        (1.0 - m["contact_share"]) * m["contact/free_step"]
-    ),
-    "move, clearance with it, where something is": lambda m: m["contact_share"] * m[CONTACT],
-    "situation, evaluation, record": lambda m: (
+    "move, where nothing is touched": lambda m: (1.0 - m["contact_share"]) * m["contact/free_step"],
+    "move, where something is": lambda m: m["contact_share"] * m[CONTACT],
+    "nearest obstacle, situation, evaluation, record": lambda m: (
         m[LOOP]
         - m["learner/replay_from_nothing"]
         - m["contact_share"] * m[CONTACT]
