@@ -63,7 +63,7 @@ bool box2d_fuses_nothing() {
   manifold.pointCount = 1;
   manifold.localPoint.Set(0.3f, 0.7f);
   manifold.points[0].localPoint.SetZero();
-  for (int i = 1; i <= 8; ++i) {
+  for (int i = 1; i <= 32; ++i) {
     at.p.Set(1.1f * static_cast<float>(i), 0.9f);
     const float radius = 0.1f * static_cast<float>(i);
     b2WorldManifold place;
