@@ -39,7 +39,8 @@ struct PastStep {
 
 /// The free learning of a seed.
 inline std::vector<PastStep> free_learning(std::uint64_t seed) {
-  const Record record = Trial(paper(), {}, seed).free_learning(kSteps);
+  Record record;
+  Trial(paper(), {}, seed).free_learning(record, kSteps);
   std::vector<PastStep> steps;
   steps.reserve(record.steps());
   for (std::size_t i = 0; i < record.steps(); ++i) {

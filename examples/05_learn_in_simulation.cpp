@@ -12,8 +12,10 @@
 #include "devlearn/trial.hpp"
 
 std::vector<int> steps_of_rounds(devlearn::Trial& trial, int rounds) {
+  devlearn::Record record;
+  trial.path_learning(record, rounds, 5000);
   std::vector<int> steps;
-  for (const devlearn::Round& round : trial.path_learning(rounds, 5000).rounds) {
+  for (const devlearn::Round& round : record.rounds) {
     steps.push_back(static_cast<int>(round.steps));
   }
   return steps;
@@ -34,7 +36,8 @@ int main(int argc, char** argv) {
   for (int seed = 1; seed <= 5; ++seed) {
     devlearn::Trial trial(world, devlearn::TrialConfig::paper(), seed);
     const int first = steps_of_rounds(trial, 1)[0];
-    trial.free_learning(5000);
+    devlearn::Record free;
+    trial.free_learning(free, 5000);
     std::vector<int> rounds = steps_of_rounds(trial, 60);
     std::sort(rounds.begin() + 40, rounds.end());
     const int late = rounds[50];

@@ -10,5 +10,7 @@
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   devlearn::Trial trial(devlearn::bench::paper(), {}, 1);
-  std::printf("%zu\n", trial.free_learning(std::atoll(arguments[1])).steps());
+  devlearn::Record record;
+  trial.free_learning(record, std::atoll(arguments[1]));
+  std::printf("%zu\n", record.steps());
 }

@@ -21,7 +21,8 @@ void free_learnings(benchmark::State& state, const World& world, bool echoes = f
       state.PauseTiming();  // a trial is made once, however long it runs
       Trial trial(world, {}, seed);
       state.ResumeTiming();
-      const Record record = trial.free_learning(kSteps, options);
+      Record record;
+      trial.free_learning(record, kSteps, options);
       contacts += std::count(record.collided.begin(), record.collided.end(), 1);
     }
   }
@@ -80,9 +81,11 @@ const auto* const experiment = add("trial/experiment", [](benchmark::State& stat
   double steps = 0.0;
   for (auto _ : state) {
     Trial trial(world, {}, 1);
-    trial.free_learning(kSteps);
-    trial.free_learning(kSteps);
-    steps = static_cast<double>(2 * kSteps + trial.path_learning(400).steps());
+    Record record;
+    trial.free_learning(record, kSteps);
+    trial.free_learning(record, kSteps);
+    trial.path_learning(record, 400);
+    steps = static_cast<double>(record.steps());
   }
   per_step(state, steps);
 });

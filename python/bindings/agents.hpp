@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bindings.hpp"
-#include "devlearn/trial.hpp"
+#include "devlearn/trial_snapshot.hpp"
 
 namespace devlearn::python {
 
@@ -9,5 +9,8 @@ namespace devlearn::python {
 std::shared_ptr<Agent> as_agent(const py::object& agent);
 /// The reverse.
 py::object agent_of(const Trial& trial);
+/// Who goes on in a trial that is loaded: None for the agent in the file, an agent, or a class that
+/// makes one by from_state.
+LoadOptions load_options(const py::object& agent);
 
 }  // namespace devlearn::python

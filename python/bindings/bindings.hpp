@@ -34,6 +34,7 @@ void bind_explanation(py::module_& m);
 void bind_world(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_record(py::module_& m);
+void bind_agents(py::module_& m);
 void bind_trial(py::module_& m);
 void bind_trial_snapshot(py::module_& m);
 void bind_file(py::module_& m);

@@ -79,18 +79,20 @@ handle type_caster<devlearn::Choice>::cast(const devlearn::Choice& choice, retur
 }
 
 bool type_caster<devlearn::Development>::load(handle source, bool convert) {
-  using Fields = std::tuple<devlearn::SituationId, int, devlearn::Event, int>;
+  using Fields =
+      std::tuple<devlearn::SituationId, int, devlearn::Event, int, std::int64_t, std::int64_t>;
   make_caster<Fields> fields;
   if (!isinstance(source, development_type()) || !fields.load(source, convert)) return false;
-  const auto [situation, motion, event, reduced] = cast_op<Fields>(fields);
-  value = {situation, motion, event, reduced};
+  const auto [situation, motion, event, reduced, explored, effective] = cast_op<Fields>(fields);
+  value = {situation, motion, event, reduced, explored, effective};
   return true;
 }
 
 handle type_caster<devlearn::Development>::cast(const devlearn::Development& development,
                                                 return_value_policy, handle) {
   return named_tuple(development_type(), development.situation, development.motion,
-                     member(development.event), development.reduced)
+                     member(development.event), development.reduced, development.explored_count,
+                     development.effective_count)
       .release();
 }
 

@@ -17,6 +17,7 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_world(m);
   devlearn::python::bind_robot(m);
   devlearn::python::bind_record(m);
+  devlearn::python::bind_agents(m);
   devlearn::python::bind_trial(m);
   devlearn::python::bind_trial_snapshot(m);
 }

@@ -23,6 +23,34 @@ void bind_random(py::module_& m) {
              return Random(seed.value, stream);
            }),
            py::arg("seed"), py::arg("stream"))
+      .def_static(
+          "from_state",
+          [](const py::array& state) {
+            Random::State words{};
+            if (!py::isinstance<py::array_t<std::uint64_t>>(state) || state.ndim() != 1 ||
+                state.shape(0) != static_cast<py::ssize_t>(words.size())) {
+              throw InvalidValue("state", py::repr(state), "an array of four uint64");
+            }
+            const auto view = py::array_t<std::uint64_t>(state).unchecked<1>();
+            for (std::size_t i = 0; i < words.size(); ++i) {
+              words[i] = view(static_cast<py::ssize_t>(i));
+            }
+            if (words == Random::State{}) {
+              throw InvalidValue("state", "all zeros", "a state of the generator");
+            }
+            return Random(words);
+          },
+          py::arg("state"),
+          "A generator that goes on from a state. Raises InvalidValue for what is none.")
+      .def_property_readonly(
+          "state",
+          [](const Random& self) {
+            return py::array_t<std::uint64_t>(static_cast<py::ssize_t>(self.state().size()),
+                                              self.state().data());
+          },
+          "What it goes on from, as an array of four uint64.")
+      .def(py::pickle([](const Random& self) { return self.state(); },
+                      [](const Random::State& state) { return Random(state); }))
       .def("next", &Random::next, "64 random bits as an int.")
       .def("uniform", &Random::uniform, "A float uniform on [0, 1).")
       .def(

@@ -28,67 +28,6 @@ struct StepLimitTag {
   static constexpr const char* quantity = "step_limit";
   static constexpr const char* allowed = "a whole number in [1, 2^40]";
 };
-/// An agent written in Python.
-class PythonAgent final : public Agent {
- public:
-  explicit PythonAgent(py::object agent) : agent_(std::move(agent)) {
-    for (const char* method : {"choose", "observe"}) {
-      if (!py::hasattr(agent_, method)) {
-        throw InvalidValue("agent", py::repr(agent_),
-                           "None, a Learner, or an object with choose(observation) and "
-                           "observe(outcome)");
-      }
-    }
-  }
-
-  Choice choose(const Observation& observation) override {
-    const py::gil_scoped_acquire gil;
-    const py::object chosen = agent_.attr("choose")(observation);
-    py::detail::make_caster<Choice> choice;
-    if (choice.load(chosen, true)) return choice;
-    if (!PyIndex_Check(chosen.ptr())) {
-      throw InvalidValue("agent's choice", py::repr(chosen), "a motion index or a Choice");
-    }
-    return {chosen.cast<Whole<MotionTag>>().value, Kind::kUnstated};
-  }
-
-  Development observe(const Outcome& outcome) override {
-    const py::gil_scoped_acquire gil;
-    const py::object result = agent_.attr("observe")(outcome);
-    py::detail::make_caster<Development> development;
-    return development.load(result, true) ? Development(development) : Development{};
-  }
-
-  void cancel() override {
-    const py::gil_scoped_acquire gil;
-    if (py::hasattr(agent_, "cancel")) agent_.attr("cancel")();
-  }
-
-  const py::object& object() const { return agent_; }
-
- private:
-  py::object agent_;
-};
-
-}  // namespace
-
-std::shared_ptr<Agent> as_agent(const py::object& agent) {
-  if (py::isinstance<RandomAgent>(agent)) return agent.cast<std::shared_ptr<RandomAgent>>();
-  if (py::isinstance<Learner>(agent) && !py::hasattr(agent, "observe")) {
-    return std::make_shared<LearnerAgent>(agent.cast<std::shared_ptr<Learner>>());
-  }
-  return std::make_shared<PythonAgent>(agent);
-}
-
-py::object agent_of(const Trial& trial) {
-  if (const auto* python = dynamic_cast<const PythonAgent*>(trial.agent().get())) {
-    return python->object();
-  }
-  if (const auto learner = trial.learner()) return py::cast(learner);
-  return py::cast(std::dynamic_pointer_cast<RandomAgent>(trial.agent()));
-}
-
-namespace {
 
 RecordObject as_record(const Trial& trial, Record&& record) {
   return RecordObject(py::module_::import("devlearn.record")
@@ -144,46 +83,23 @@ void bind_config(py::module_& m) {
       "defaults. Raises FileError.");
 }
 
-void bind_messages(py::module_& m) {
-  py::class_<Observation>(m, "Observation", "What an agent knows when it chooses.")
-      .def_readonly("situation", &Observation::situation, "The present situation's id.")
-      .def_readonly("pose", &Observation::pose, "[m, m, degrees]")
-      .def_readonly("sef", &Observation::sef, "SEF here.")
-      .def_readonly("goal_distance", &Observation::goal_distance, "d_g [m]")
-      .def_readonly("clearance", &Observation::clearance, "d_o [m]")
-      .def_readonly("motion_count", &Observation::motion_count,
-                    "Choose one in 0 ... motion_count - 1.");
-  py::class_<Outcome>(m, "Outcome", "What an agent is told about the motion it chose.")
-      .def_readonly("situation", &Outcome::situation, "The next situation's id.")
-      .def_readonly("sef", &Outcome::sef, "SEF there.")
-      .def_readonly("smf", &Outcome::smf, "SMF as learned from: min(SMF, -1) for a collision.")
-      .def_readonly("collided", &Outcome::collided, "Whether the body touched something.")
-      .def_readonly("arrived", &Outcome::arrived, "d_g <= goal_radius.");
-
-  py::class_<RandomAgent, std::shared_ptr<RandomAgent>>(
-      m, "RandomAgent", "Uniformly random motions: what learning is measured against.")
-      .def(py::init([](Whole<SeedTag> seed) { return std::make_shared<RandomAgent>(seed.value); }),
-           py::arg("seed") = 0)
-      .def(py::pickle(
-          [](const RandomAgent& self) { return self.random().state(); },
-          [](const Random::State& state) { return std::make_shared<RandomAgent>(Random(state)); }));
-}
-
 }  // namespace
 
 void bind_trial(py::module_& m) {
   bind_config(m);
-  bind_messages(m);
 
   py::class_<Trial> cls(
       m, "Trial", py::dynamic_attr(),
       "The closed loop: world -> sense -> situation -> choice -> motion -> evaluation ->\n"
       "development -> record.\n\n"
       "Parameters: world; config, a TrialConfig (None: the paper's); seed of the learner's draws;\n"
-      "agent: None for a new paper's learner, a Learner (shared, not copied), or any object with\n"
-      "choose(observation) -> motion index or Choice, observe(outcome) and, if it likes, "
-      "cancel(),\n"
-      "called where its motion was refused. Raises InvalidValue.\n\n"
+      "agent: None for a new paper's learner, a Learner (shared, not copied), a RandomAgent, or "
+      "any\n"
+      "object with choose(observation) -> motion index or Choice, and observe(outcome). If it has\n"
+      "them, these are called, too: begin_round(), before the first choice of a round;\n"
+      "end_round(arrived), True where path learning arrives, False where the next round begins;\n"
+      "cancel(), where its motion was refused. With state() -> dict of arrays and a classmethod\n"
+      "from_state(dict) it is saved with the trial. Raises InvalidValue.\n\n"
       "A phase that Ctrl-C or an agent's exception ends leaves what it finished in `interrupted`.");
   cls.attr("interrupted") = py::none();
   cls.def(py::init([](const World& world, const std::optional<TrialConfig>& given,
@@ -201,7 +117,7 @@ void bind_trial(py::module_& m) {
             const Turn turn;
             return self.step();
           },
-          "One tick of the loop.")
+          "One step: once around the loop.")
       .def(
           "run",
           [](py::object& self, Whole<StepsTag> steps, bool echoes, bool rounds_only) {
@@ -212,7 +128,7 @@ void bind_trial(py::module_& m) {
           },
           py::arg("steps"), py::kw_only(), py::arg("echoes") = false,
           py::arg("rounds_only") = false,
-          "`steps` ticks from where the robot is, in the present round. `echoes` records the "
+          "`steps` steps from where the robot is, in the present round. `echoes` records the "
           "sonars, too. With `rounds_only` the record holds `rounds` and no steps or poses, and "
           "memory does not grow with steps; not together with echoes.")
       .def(
@@ -258,11 +174,14 @@ void bind_trial(py::module_& m) {
           [](Trial& self, double x, double y, double heading) {
             self.place({x, y, heading});
           },
-          py::arg("x"), py::arg("y"), py::arg("heading"),
+          py::arg("x"), py::arg("y"), py::arg("heading"), py::call_guard<Turn>(),
           "Puts the robot anywhere it fits [m, m, degrees] for a new round. Raises InvalidValue.")
       .def_property_readonly("pose", &Trial::pose, "Where the robot is [m, m, degrees].")
       .def_property_readonly("round", &Trial::round,
                              "The present round, from 1; 0 before the first.")
+      .def_property_readonly("round_open", &Trial::round_open,
+                             "Whether the agent is in a round: told that it began, and not yet "
+                             "that it ended.")
       .def_property_readonly("arrived", &Trial::arrived, "Whether d_g <= goal_radius.")
       .def_property_readonly("learner", &Trial::learner,
                              "The paper's learner, where that is the agent; None otherwise.")

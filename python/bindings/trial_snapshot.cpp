@@ -5,6 +5,7 @@
 
 #include "agents.hpp"
 #include "bindings.hpp"
+#include "devlearn/random_agent.hpp"
 #include "record_object.hpp"
 
 namespace devlearn::python {
@@ -14,12 +15,6 @@ namespace {
 class Saving {
  public:
   Saving(const Trial& trial, const py::object& record, bool without_agent) {
-    const py::object agent = agent_of(trial);
-    if (!without_agent && !py::isinstance<Learner>(agent) && !py::isinstance<RandomAgent>(agent)) {
-      throw InvalidValue("agent", py::repr(agent),
-                         "a Learner or RandomAgent; save an agent of your own yourself, the trial "
-                         "with without_agent=True, and give it to load as agent=");
-    }
     if (const auto learner = trial.learner()) const Idle not_in_a_run(*learner);
     options_.agent = !without_agent;
     if (record.is_none()) return;
@@ -52,16 +47,11 @@ py::bytes snapshot_bytes(const Trial& trial, const py::object& record, bool with
   return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-std::shared_ptr<Agent> given_agent(const py::object& agent) {
-  return agent.is_none() ? nullptr : as_agent(agent);
-}
-
-TrialSnapshot from_bytes(const py::bytes& bytes, std::shared_ptr<Agent> agent,
+TrialSnapshot from_bytes(const py::bytes& bytes, const LoadOptions& options,
                          const std::string& source) {
   const std::string_view view = bytes;
   const Turn turn;
-  return load_trial(reinterpret_cast<const std::byte*>(view.data()), view.size(), std::move(agent),
-                    source);
+  return load_trial(reinterpret_cast<const std::byte*>(view.data()), view.size(), options, source);
 }
 
 }  // namespace
@@ -71,7 +61,7 @@ void bind_trial_snapshot(py::module_& m) {
       "record_in_snapshot",
       [](const py::bytes& bytes, const std::string& source) -> py::object {
         // A record does not depend on the agent.
-        TrialSnapshot snapshot = from_bytes(bytes, std::make_shared<RandomAgent>(0), source);
+        TrialSnapshot snapshot = from_bytes(bytes, {std::make_shared<RandomAgent>(0)}, source);
         if (!snapshot.record) throw FileError(source, "record", "nothing", "a record");
         return py::make_tuple(columns(std::move(*snapshot.record)), snapshot.trial.world(),
                               snapshot.trial.config(), snapshot.trial.seed(), snapshot.note);
@@ -93,27 +83,30 @@ void bind_trial_snapshot(py::module_& m) {
          "Writes a snapshot (safetensors layout): world, configuration, seed, pose, round and "
          "agent "
          "with its generator, and a Record if one is given, which Record.load reads. To the side "
-         "first, flushed, then renamed. A Learner and a RandomAgent can be saved; any other agent "
-         "only by its owner: then save the trial `without_agent`. Raises FileError, InvalidValue.")
+         "first, flushed, then renamed. Of agents a Learner and a RandomAgent are saved, and one "
+         "with state() -> dict of str, numbers and numpy arrays, whose class has from_state(dict); "
+         "any other only by its owner: then save the trial `without_agent`. Raises FileError, "
+         "InvalidValue.")
       .def_static(
           "load",
           [](const py::object& path, const py::object& agent) {
             const std::string name = file_path(path);
-            const std::shared_ptr<Agent> given = given_agent(agent);
+            const LoadOptions options = load_options(agent);
             const Turn turn;
-            return load_trial(name, given).trial;
+            return load_trial(name, options).trial;
           },
           py::arg("path"), py::arg("agent") = py::none(),
           "The trial in a snapshot; it goes on equal to the bit, in the middle of a round, too. "
-          "`agent` takes the place of the one in the file. Raises FileError, saying what is wrong "
-          "with the file.")
+          "`agent` takes the place of the one in the file; a class makes it, by from_state(dict) "
+          "of "
+          "what its state() was. Nothing is imported by a name in the file. Raises FileError, "
+          "saying what is wrong with the file.")
       .def("to_bytes", &snapshot_bytes, py::arg("record") = py::none(), py::kw_only(),
            py::arg("without_agent") = false, "The snapshot as bytes.")
       .def_static(
           "from_bytes",
           [](const py::bytes& bytes, const py::object& agent) {
-            const std::shared_ptr<Agent> given = given_agent(agent);
-            return from_bytes(bytes, given, "bytes").trial;
+            return from_bytes(bytes, load_options(agent), "bytes").trial;
           },
           py::arg("snapshot"), py::arg("agent") = py::none(),
           "The trial in a snapshot's bytes. Raises FileError.")
@@ -126,8 +119,9 @@ void bind_trial_snapshot(py::module_& m) {
           },
           [](const py::object& given) {
             const auto state = given.cast<py::tuple>();
-            const std::shared_ptr<Agent> agent = as_agent(state[1]);
-            return std::pair(from_bytes(state[0], agent, "bytes").trial, state[2].cast<py::dict>());
+            const LoadOptions options{as_agent(state[1])};
+            return std::pair(from_bytes(state[0], options, "bytes").trial,
+                             state[2].cast<py::dict>());
           }))
       .def(
           "copy",

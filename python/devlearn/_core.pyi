@@ -56,7 +56,19 @@ class Random:
 
     The paper's learner draws from the stream "agent" of its seed.
     """
+    @staticmethod
+    def from_state(state: numpy.ndarray) -> Random:
+        """
+        A generator that goes on from a state. Raises InvalidValue for what is none.
+        """
+    def __getstate__(self) -> typing.Annotated[list[int], "FixedSize(4)"]: ...
     def __init__(self, seed: typing.SupportsIndex, stream: str) -> None: ...
+    def __setstate__(
+        self,
+        arg0: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(4)"
+        ],
+    ) -> None: ...
     def index(self, count: typing.SupportsIndex) -> int:
         """
         An int uniform on {0, ..., count - 1}. Raises InvalidValue unless 1 <= count < 2**32.
@@ -68,6 +80,11 @@ class Random:
     def uniform(self) -> float:
         """
         A float uniform on [0, 1).
+        """
+    @property
+    def state(self) -> numpy.typing.NDArray[numpy.uint64]:
+        """
+        What it goes on from, as an array of four uint64.
         """
 
 class SituationGrid:
@@ -1032,6 +1049,106 @@ class Step:
         What was learned from: min(smf, -1) for a collision.
         """
 
+class Observation:
+    """
+    What an agent knows when it chooses.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def clearance(self) -> float:
+        """
+        d_o [m]
+        """
+    @property
+    def estimate(self) -> float:
+        """
+        Cost to go at the least: d_g / (v t_s), in steps; at least 0.
+        """
+    @property
+    def goal_distance(self) -> float:
+        """
+        d_g [m]
+        """
+    @property
+    def motion_count(self) -> int:
+        """
+        Choose one in 0 ... motion_count - 1.
+        """
+    @property
+    def pose(self) -> devlearn._types.Pose:
+        """
+        [m, m, degrees]
+        """
+    @property
+    def sef(self) -> float:
+        """
+        SEF here.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        The present situation's id.
+        """
+
+class Outcome:
+    """
+    What an agent is told about the motion it chose.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def arrived(self) -> bool:
+        """
+        d_g <= goal_radius.
+        """
+    @property
+    def collided(self) -> bool:
+        """
+        Whether the body touched something.
+        """
+    @property
+    def cost(self) -> float:
+        """
+        What the step cost: 1.
+        """
+    @property
+    def estimate(self) -> float:
+        """
+        Cost to go from there, as in Observation.
+        """
+    @property
+    def reward(self) -> float:
+        """
+        -cost.
+        """
+    @property
+    def sef(self) -> float:
+        """
+        SEF there.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        The next situation's id.
+        """
+    @property
+    def smf(self) -> float:
+        """
+        SMF as learned from: min(SMF, -1) for a collision.
+        """
+
+class RandomAgent:
+    """
+    Uniformly random motions: what learning is measured against.
+    """
+    def __getstate__(self) -> typing.Annotated[list[int], "FixedSize(4)"]: ...
+    def __init__(self, seed: typing.SupportsIndex = 0) -> None: ...
+    def __setstate__(
+        self,
+        arg0: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(4)"
+        ],
+    ) -> None: ...
+
 class TrialConfig:
     """
     Everything a trial needs besides the world and the seed; the defaults are the paper's.
@@ -1142,93 +1259,18 @@ class TrialConfig:
         Whether walls count in d_o; the clearance source sonar needs it; true or false.
         """
 
-class Observation:
-    """
-    What an agent knows when it chooses.
-    """
-    @property
-    def clearance(self) -> float:
-        """
-        d_o [m]
-        """
-    @property
-    def goal_distance(self) -> float:
-        """
-        d_g [m]
-        """
-    @property
-    def motion_count(self) -> int:
-        """
-        Choose one in 0 ... motion_count - 1.
-        """
-    @property
-    def pose(self) -> devlearn._types.Pose:
-        """
-        [m, m, degrees]
-        """
-    @property
-    def sef(self) -> float:
-        """
-        SEF here.
-        """
-    @property
-    def situation(self) -> int:
-        """
-        The present situation's id.
-        """
-
-class Outcome:
-    """
-    What an agent is told about the motion it chose.
-    """
-    @property
-    def arrived(self) -> bool:
-        """
-        d_g <= goal_radius.
-        """
-    @property
-    def collided(self) -> bool:
-        """
-        Whether the body touched something.
-        """
-    @property
-    def sef(self) -> float:
-        """
-        SEF there.
-        """
-    @property
-    def situation(self) -> int:
-        """
-        The next situation's id.
-        """
-    @property
-    def smf(self) -> float:
-        """
-        SMF as learned from: min(SMF, -1) for a collision.
-        """
-
-class RandomAgent:
-    """
-    Uniformly random motions: what learning is measured against.
-    """
-    def __getstate__(self) -> typing.Annotated[list[int], "FixedSize(4)"]: ...
-    def __init__(self, seed: typing.SupportsIndex = 0) -> None: ...
-    def __setstate__(
-        self,
-        arg0: typing.Annotated[
-            collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], "FixedSize(4)"
-        ],
-    ) -> None: ...
-
 class Trial:
     """
     The closed loop: world -> sense -> situation -> choice -> motion -> evaluation ->
     development -> record.
 
     Parameters: world; config, a TrialConfig (None: the paper's); seed of the learner's draws;
-    agent: None for a new paper's learner, a Learner (shared, not copied), or any object with
-    choose(observation) -> motion index or Choice, observe(outcome) and, if it likes, cancel(),
-    called where its motion was refused. Raises InvalidValue.
+    agent: None for a new paper's learner, a Learner (shared, not copied), a RandomAgent, or any
+    object with choose(observation) -> motion index or Choice, and observe(outcome). If it has
+    them, these are called, too: begin_round(), before the first choice of a round;
+    end_round(arrived), True where path learning arrives, False where the next round begins;
+    cancel(), where its motion was refused. With state() -> dict of arrays and a classmethod
+    from_state(dict) it is saved with the trial. Raises InvalidValue.
 
     A phase that Ctrl-C or an agent's exception ends leaves what it finished in `interrupted`.
     """
@@ -1242,7 +1284,7 @@ class Trial:
     @staticmethod
     def load(path: typing.Any, agent: typing.Any = None) -> Trial:
         """
-        The trial in a snapshot; it goes on equal to the bit, in the middle of a round, too. `agent` takes the place of the one in the file. Raises FileError, saying what is wrong with the file.
+        The trial in a snapshot; it goes on equal to the bit, in the middle of a round, too. `agent` takes the place of the one in the file; a class makes it, by from_state(dict) of what its state() was. Nothing is imported by a name in the file. Raises FileError, saying what is wrong with the file.
         """
     def __copy__(self) -> typing.Any: ...
     def __getstate__(self) -> typing.Any: ...
@@ -1298,17 +1340,17 @@ class Trial:
         self, steps: typing.SupportsIndex, *, echoes: bool = False, rounds_only: bool = False
     ) -> devlearn.record.Record:
         """
-        `steps` ticks from where the robot is, in the present round. `echoes` records the sonars, too. With `rounds_only` the record holds `rounds` and no steps or poses, and memory does not grow with steps; not together with echoes.
+        `steps` steps from where the robot is, in the present round. `echoes` records the sonars, too. With `rounds_only` the record holds `rounds` and no steps or poses, and memory does not grow with steps; not together with echoes.
         """
     def save(
         self, path: typing.Any, record: typing.Any = None, *, without_agent: bool = False
     ) -> None:
         """
-        Writes a snapshot (safetensors layout): world, configuration, seed, pose, round and agent with its generator, and a Record if one is given, which Record.load reads. To the side first, flushed, then renamed. A Learner and a RandomAgent can be saved; any other agent only by its owner: then save the trial `without_agent`. Raises FileError, InvalidValue.
+        Writes a snapshot (safetensors layout): world, configuration, seed, pose, round and agent with its generator, and a Record if one is given, which Record.load reads. To the side first, flushed, then renamed. Of agents a Learner and a RandomAgent are saved, and one with state() -> dict of str, numbers and numpy arrays, whose class has from_state(dict); any other only by its owner: then save the trial `without_agent`. Raises FileError, InvalidValue.
         """
     def step(self) -> Step:
         """
-        One tick of the loop.
+        One step: once around the loop.
         """
     def to_bytes(self, record: typing.Any = None, *, without_agent: bool = False) -> bytes:
         """
@@ -1353,6 +1395,11 @@ class Trial:
     def round(self) -> int:
         """
         The present round, from 1; 0 before the first.
+        """
+    @property
+    def round_open(self) -> bool:
+        """
+        Whether the agent is in a round: told that it began, and not yet that it ended.
         """
     @property
     def seed(self) -> int:

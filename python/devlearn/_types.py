@@ -49,6 +49,10 @@ class Development(NamedTuple):
     """What happened to it."""
     reduced: int
     """How many motions reduction development (Eq. 14-17) removed."""
+    explored_count: int = 0
+    """NUM_RM, after it."""
+    effective_count: int = 0
+    """NUM_M, after it."""
 
 
 class LearnerMemory(NamedTuple):

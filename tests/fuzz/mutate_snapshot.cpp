@@ -2,6 +2,7 @@
 #include <cstring>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "devlearn/error.hpp"
@@ -12,8 +13,6 @@
 using namespace devlearn;
 
 namespace {
-
-using Shape = std::vector<std::uint64_t>;
 
 constexpr const char* kTypes[] = {"F64", "I64", "U64", "I32", "U32", "U16", "U8", "BOOL", "F32"};
 constexpr std::uint64_t kWords[] = {0,
@@ -35,7 +34,7 @@ class Pieces {
  public:
   explicit Pieces(const safetensors::Contents& contents) : metadata_(contents.metadata) {
     for (const auto& [name, array] : contents.arrays) {
-      const auto* const first = reinterpret_cast<const char*>(array.data);
+      const auto* const first = reinterpret_cast<const char*>(array.data.get());
       arrays_[name] = {array.dtype, array.shape, std::string(first, array.bytes)};
     }
   }
@@ -71,9 +70,9 @@ class Pieces {
   std::string text() const {
     safetensors::Contents contents{metadata_, {}};
     for (const auto& [name, piece] : arrays_) {
-      contents.arrays[name] = {piece.dtype, piece.shape,
-                               reinterpret_cast<const std::byte*>(piece.data.data()),
-                               piece.data.size()};
+      const auto* const first = reinterpret_cast<const std::byte*>(piece.data.data());
+      contents.arrays[name] = {
+          piece.dtype, piece.shape, {std::shared_ptr<const void>(), first}, piece.data.size()};
     }
     const std::vector<std::byte> bytes = safetensors::to_bytes(contents);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

@@ -9,7 +9,8 @@ int main() {
   devlearn::WorldDef def;
   def.obstacles.push_back(devlearn::Circle{{2.5, 2.5}, 0.5});
   devlearn::Trial trial(devlearn::World(def), devlearn::TrialConfig::paper(), 1);
-  const devlearn::Record record = trial.free_learning(2000);
+  devlearn::Record record;
+  trial.free_learning(record, 2000);
   int collisions = 0;
   for (std::size_t step = 0; step < record.steps(); ++step) {
     std::printf("%d %a %a %a %a\n", int(record.motion[step]), record.smf[step], record.x[step + 1],

@@ -283,11 +283,12 @@ def test_results_are_named_tuples_that_nothing_changes():
     development = learner.learn(1.0)
     motion, kind = choice
     assert (motion, kind) == (choice.motion, choice.kind) == (choice.motion, Kind.EXPLORE)
-    assert development == devlearn.Development(7, motion, Event.EXTENSION, 0)
+    assert development == devlearn.Development(7, motion, Event.EXTENSION, 0, 1, 1)
     assert choice == devlearn.Choice(motion, Kind.EXPLORE) != devlearn.Choice(motion)
     assert repr(choice) == f"Choice(motion={motion}, kind={Kind.EXPLORE!r})"
     assert repr(development) == (
-        f"Development(situation=7, motion={motion}, event={Event.EXTENSION!r}, reduced=0)"
+        f"Development(situation=7, motion={motion}, event={Event.EXTENSION!r}, reduced=0, "
+        "explored_count=1, effective_count=1)"
     )
     for result in (choice, development):
         assert pickle.loads(pickle.dumps(result)) == copy.deepcopy(result) == result

@@ -1,32 +1,21 @@
 #include "devlearn/agent.hpp"
 
-#include <utility>
-
 #include "devlearn/error.hpp"
+#include "devlearn/learner_agent.hpp"
+#include "devlearn/random_agent.hpp"
 
 namespace devlearn {
 
-LearnerAgent::LearnerAgent(std::shared_ptr<Learner> learner) : learner_(std::move(learner)) {
-  if (!learner_) throw InvalidValue("LearnerAgent.learner", "null", "a learner");
+const std::string& AgentState::text(const std::string& name) const {
+  const auto found = texts.find(name);
+  if (found == texts.end()) throw InvalidValue(name, "nothing", "a text");
+  return found->second;
 }
 
-Choice LearnerAgent::choose(const Observation& observation) {
-  return learner_->choose(observation.situation);
+std::shared_ptr<Agent> make_agent(const AgentState& state, const std::string& source) {
+  if (state.kind == LearnerAgent::kKind) return std::make_shared<LearnerAgent>(state, source);
+  if (state.kind == RandomAgent::kKind) return std::make_shared<RandomAgent>(state, source);
+  return nullptr;
 }
-
-Development LearnerAgent::observe(const Outcome& outcome) { return learner_->learn(outcome.smf); }
-
-void LearnerAgent::cancel() { learner_->cancel(); }
-
-std::int64_t LearnerAgent::explored_count() const { return learner_->explored_count(); }
-
-std::int64_t LearnerAgent::effective_count() const { return learner_->effective_count(); }
-
-Choice RandomAgent::choose(const Observation& observation) {
-  const auto motions = static_cast<std::uint32_t>(observation.motion_count);
-  return {static_cast<int>(random_.index(motions)), Kind::kUnstated};
-}
-
-Development RandomAgent::observe(const Outcome&) { return {}; }
 
 }  // namespace devlearn

@@ -142,6 +142,8 @@ Development Learner::develop(Slot slot, int place, double smf) noexcept {
       break;
   }
   effective_count_ += situation.effective_count() - effective_before;
+  development.explored_count = explored_count_;
+  development.effective_count = effective_count_;
   return development;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,8 @@ safetensors::Metadata preamble(const std::string& format, std::uint64_t version)
 void require_format(const safetensors::Contents& contents, const std::string& format,
                     std::uint64_t version, const std::string& source);
 
-/// Adds the state's entries and arrays, which point into `state`.
-void describe(const LearnerState& state, safetensors::Contents& contents);
+/// Adds the state's entries and arrays, which share `state`.
+void describe(const std::shared_ptr<const LearnerState>& state, safetensors::Contents& contents);
 /// The reverse, checked against every law by building the learner. Throws FileError.
 Learner learner_of(const safetensors::Contents& contents, const std::string& source);
 

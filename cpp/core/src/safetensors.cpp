@@ -4,9 +4,11 @@
 #include <cstring>
 #include <istream>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <string_view>
 
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "excerpt.hpp"
 #include "file.hpp"
@@ -68,42 +70,19 @@ std::string quoted(const std::string& text) {
   return json + '"';
 }
 
-}  // namespace
+constexpr const char* kTypes = "one of F64, I64, U64, I32, U32, U16, U8, BOOL";
 
-template <>
-const char* dtype_of<double>() {
-  return "F64";
+// Bytes that an array of this type and shape takes, if 64 bits can count them.
+std::optional<std::uint64_t> bytes_of(const Array& array) {
+  std::uint64_t bytes = size_of(array.dtype);
+  for (const std::uint64_t length : array.shape) {
+    if (length != 0 && bytes > std::numeric_limits<std::uint64_t>::max() / length) {
+      return std::nullopt;
+    }
+    bytes *= length;
+  }
+  return bytes;
 }
-template <>
-const char* dtype_of<std::int64_t>() {
-  return "I64";
-}
-template <>
-const char* dtype_of<std::uint64_t>() {
-  return "U64";
-}
-template <>
-const char* dtype_of<std::int32_t>() {
-  return "I32";
-}
-template <>
-const char* dtype_of<std::uint32_t>() {
-  return "U32";
-}
-template <>
-const char* dtype_of<std::uint16_t>() {
-  return "U16";
-}
-template <>
-const char* dtype_of<std::uint8_t>() {
-  return "U8";
-}
-template <>
-const char* dtype_of<bool>() {
-  return "BOOL";
-}
-
-namespace {
 
 // The largest elements first, so that every array is aligned to its own.
 std::vector<const Array*> in_order(const Arrays& arrays) {
@@ -145,9 +124,10 @@ std::vector<std::byte> header(Metadata metadata, const Arrays& arrays) {
   }
   text += "}";
   text.resize((text.size() + kAlignment - 1) / kAlignment * kAlignment, ' ');
+  require_count("header", static_cast<long long>(text.size()), 0, kHeader.bytes);
 
   std::uint64_t hash = fnv(kFnvStart, text);
-  for (const Array* array : in_order(arrays)) hash = fnv(hash, array->data, array->bytes);
+  for (const Array* array : in_order(arrays)) hash = fnv(hash, array->data.get(), array->bytes);
   text.replace(checksum_at, kChecksumDigits, hexadecimal(hash));
 
   std::vector<std::byte> bytes(kLengthBytes + text.size());
@@ -160,10 +140,25 @@ std::vector<std::byte> header(Metadata metadata, const Arrays& arrays) {
 
 }  // namespace
 
+void require_readable(const Contents& contents) {
+  std::size_t values = 3 + contents.metadata.size();  // the header, the metadata, the checksum
+  for (const auto& [name, array] : contents.arrays) {
+    if (size_of(array.dtype) == 0) {
+      throw InvalidValue(excerpt(name) + ".dtype", excerpt(array.dtype), kTypes);
+    }
+    if (bytes_of(array) != array.bytes) {
+      throw InvalidValue(excerpt(name) + ".shape", std::to_string(array.bytes) + " bytes",
+                         "as many as dtype and shape make");
+    }
+    values += 6 + array.shape.size();  // an array, its dtype, shape, and data_offsets with two
+  }
+  require_count("texts and arrays", static_cast<long long>(values), 0, kHeader.values);
+}
+
 void write(const Contents& contents, const Write& write) {
   const std::vector<std::byte> head = header(contents.metadata, contents.arrays);
   write(head.data(), head.size());
-  for (const Array* array : in_order(contents.arrays)) write(array->data, array->bytes);
+  for (const Array* array : in_order(contents.arrays)) write(array->data.get(), array->bytes);
 }
 
 void write(const Contents& contents, const std::string& path) {
@@ -204,16 +199,11 @@ Array array_at(const json::Node& described, const std::byte* data, std::size_t d
   Array array;
   const json::Node dtype = described["dtype"], shape = described["shape"];
   array.dtype = dtype.text();
-  std::uint64_t bytes = size_of(array.dtype);
-  if (bytes == 0) dtype.refuse("one of F64, I64, U64, I32, U32, U16, U8, BOOL");
-  shape.each_element([&](const json::Node& element) {
-    const std::uint64_t length = element.whole_number();
-    if (length != 0 && bytes > std::numeric_limits<std::uint64_t>::max() / length) {
-      shape.refuse("more than 2^64 bytes", "what the file holds");
-    }
-    bytes *= length;
-    array.shape.push_back(length);
-  });
+  if (size_of(array.dtype) == 0) dtype.refuse(kTypes);
+  shape.each_element(
+      [&](const json::Node& element) { array.shape.push_back(element.whole_number()); });
+  const std::optional<std::uint64_t> bytes = bytes_of(array);
+  if (!bytes) shape.refuse("more than 2^64 bytes", "what the file holds");
 
   const json::Node offsets = described["data_offsets"];
   if (offsets.size() != 2) offsets.refuse("[begin, end]");
@@ -222,10 +212,10 @@ Array array_at(const json::Node& described, const std::byte* data, std::size_t d
     offsets.refuse("a range outside the file",
                    "[begin, end] within the " + std::to_string(data_size) + " bytes of data");
   }
-  if (bytes != end - begin) {
+  if (*bytes != end - begin) {
     shape.refuse(std::to_string(end - begin) + " bytes", "as many as dtype and shape make");
   }
-  array.data = data + begin;
+  array.data = {std::shared_ptr<const void>(), data + begin};
   array.bytes = end - begin;
   return array;
 }
@@ -250,11 +240,12 @@ void require_gapless(const Arrays& arrays, const std::byte* data, std::size_t da
   std::vector<const Arrays::value_type*> order;
   for (const auto& named : arrays) order.push_back(&named);
   std::sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
-    return std::pair(a->second.data, a->second.bytes) < std::pair(b->second.data, b->second.bytes);
+    return std::pair(a->second.data.get(), a->second.bytes) <
+           std::pair(b->second.data.get(), b->second.bytes);
   });
   std::size_t covered = 0;
   for (const auto* named : order) {
-    const auto begin = static_cast<std::size_t>(named->second.data - data);
+    const auto begin = static_cast<std::size_t>(named->second.data.get() - data);
     if (begin != covered) {
       throw FileError(source, excerpt(named->first) + ".data_offsets", std::to_string(begin),
                       std::to_string(covered) + ": arrays side by side");
@@ -317,22 +308,6 @@ const std::string& entry(const Contents& contents, const std::string& name,
     throw FileError(source, std::string(kMetadata) + "." + name, "nothing", "an entry");
   }
   return found->second;
-}
-
-const Array& array(const Contents& contents, const std::string& name, const char* dtype,
-                   const std::vector<std::uint64_t>& shape, const std::string& source) {
-  const auto found = contents.arrays.find(name);
-  if (found == contents.arrays.end()) throw FileError(source, name, "nothing", "an array");
-  const auto shown = [](const std::string& type, const std::vector<std::uint64_t>& lengths) {
-    std::string text = type;
-    for (const std::uint64_t length : lengths) text += " x " + std::to_string(length);
-    return text;
-  };
-  const Array& array = found->second;
-  if (array.dtype != dtype || array.shape != shape) {
-    throw FileError(source, name, excerpt(shown(array.dtype, array.shape)), shown(dtype, shape));
-  }
-  return array;
 }
 
 }  // namespace devlearn::safetensors

@@ -2,40 +2,21 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <iosfwd>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "devlearn/state.hpp"
 
 // The safetensors layout: eight bytes of header length (little-endian), a JSON header, then plain
 // arrays.
 namespace devlearn::safetensors {
 
-/// One plain array, in rows. dtype is safetensors' name: F64, I64, U64, I32, U32, U16, U8, BOOL.
-struct Array {
-  std::string dtype;
-  std::vector<std::uint64_t> shape;
-  const std::byte* data = nullptr;
-  std::size_t bytes = 0;
-};
-
+using Array = StateArray;
+using Arrays = StateArrays;
 using Metadata = std::map<std::string, std::string>;
-using Arrays = std::map<std::string, Array>;
-
-/// dtype of a C++ type.
-template <typename T>
-const char* dtype_of();
-
-/// A view of values that someone else owns, as many as the shape says.
-template <typename T>
-Array array_of(const T* values, std::vector<std::uint64_t> shape) {
-  std::size_t bytes = sizeof(T);
-  for (const std::uint64_t length : shape) bytes *= length;
-  return {dtype_of<T>(), std::move(shape), reinterpret_cast<const std::byte*>(values), bytes};
-}
 
 /// What a file holds; the arrays point into the bytes it was read from, or into what is saved.
 struct Contents {
@@ -43,7 +24,12 @@ struct Contents {
   Arrays arrays;
 };
 
-/// The file's bytes, piece by piece. The metadata's entry `checksum` is added: see docs.
+/// Throws InvalidValue for contents that could not be read again: too many, or arrays of other
+/// types or sizes than they say.
+void require_readable(const Contents& contents);
+
+/// The file's bytes, piece by piece. The metadata's entry `checksum` is added: see docs. Throws
+/// InvalidValue for a header that is too long to be read again.
 using Write = std::function<void(const std::byte* data, std::size_t size)>;
 void write(const Contents& contents, const Write& write);
 /// To a path, as SideFile does it. Throws FileError.
@@ -59,19 +45,15 @@ std::vector<std::byte> read_stream(std::istream& stream);
 /// or hole, dtypes, shapes, the checksum. Throws FileError naming `source`.
 Contents read(const std::byte* bytes, std::size_t size, const std::string& source);
 
-/// An array that must be there, with this dtype and shape. Throws FileError.
-const Array& array(const Contents& contents, const std::string& name, const char* dtype,
-                   const std::vector<std::uint64_t>& shape, const std::string& source);
-
-/// Its values.
+/// The values of an array that must be there, with this type and shape. Throws FileError.
 template <typename T>
-std::vector<T> values(const Contents& contents, const std::string& name,
-                      const std::vector<std::uint64_t>& shape, const std::string& source,
-                      const char* dtype = dtype_of<T>()) {
-  const Array& found = array(contents, name, dtype, shape, source);
-  std::vector<T> result(found.bytes / sizeof(T));
-  if (found.bytes > 0) std::memcpy(result.data(), found.data, found.bytes);
-  return result;
+std::vector<T> values(const Contents& contents, const std::string& name, const Shape& shape,
+                      const std::string& source, const char* dtype = dtype_of<T>()) {
+  try {
+    return values_of<T>(contents.arrays, name, shape, dtype);
+  } catch (const InvalidValue& error) {
+    throw FileError(source, error.quantity(), error.value(), error.allowed());
+  }
 }
 
 /// A metadata entry that must be there. Throws FileError.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstring>
 
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
@@ -56,7 +55,7 @@ void EntryWriter::operator()(const std::string& name, const std::optional<double
   (*this)(name, value.value_or(0.0));
 }
 void EntryWriter::operator()(const std::string& name, const std::vector<double>& values) {
-  contents_.arrays[name] = safetensors::array_of(values.data(), {values.size()});
+  contents_.arrays[name] = array_over(values.data(), {values.size()}, nullptr);
 }
 
 template <typename T>
@@ -109,7 +108,8 @@ std::size_t EntryReader::option(const std::string& name,
 
 // --- a learner's state ---------------------------------------------------------------------------
 
-void describe(const LearnerState& state, safetensors::Contents& contents) {
+void describe(const std::shared_ptr<const LearnerState>& shared, safetensors::Contents& contents) {
+  const LearnerState& state = *shared;
   const LearnerMemory& all = state.memory;
   const std::uint64_t situations = all.situation.size(), effective = all.orientation.size();
   EntryWriter entries(contents);
@@ -124,8 +124,8 @@ void describe(const LearnerState& state, safetensors::Contents& contents) {
   }
 
   const auto motion_count = static_cast<std::uint64_t>(state.config.motion_count);
-  const auto add = [&](const char* name, const auto* values, std::vector<std::uint64_t> shape) {
-    contents.arrays[name] = safetensors::array_of(values, std::move(shape));
+  const auto add = [&](const char* name, const auto* values, Shape shape) {
+    contents.arrays[name] = array_over(values, std::move(shape), shared);
   };
   add("situation", all.situation.data(), {situations});
   add("effective_count", all.effective_count.data(), {situations});
@@ -138,9 +138,9 @@ void describe(const LearnerState& state, safetensors::Contents& contents) {
 
 Random::State random_of(const safetensors::Contents& contents, const std::string& source) {
   Random::State state{};
-  const safetensors::Array& random =
-      safetensors::array(contents, "random", "U64", {state.size()}, source);
-  std::memcpy(state.data(), random.data, random.bytes);
+  const auto random =
+      safetensors::values<std::uint64_t>(contents, "random", {state.size()}, source);
+  std::copy(random.begin(), random.end(), state.begin());
   if (state == Random::State{}) {
     throw FileError(source, "random", "all zeros", "a state of the generator");
   }
@@ -168,7 +168,7 @@ Learner learner_of(const safetensors::Contents& contents, const std::string& sou
   entries("situations", situations);
   entries("effective", effective);
   const auto motion_count = static_cast<std::uint64_t>(state.config.motion_count);
-  const auto take = [&](const char* name, auto& values, const std::vector<std::uint64_t>& shape) {
+  const auto take = [&](const char* name, auto& values, const Shape& shape) {
     using T = typename std::decay_t<decltype(values)>::value_type;
     values = safetensors::values<T>(contents, name, shape, source);
   };
@@ -190,7 +190,7 @@ namespace {
 // Hands the contents of a learner's snapshot to write(contents).
 template <typename Write>
 auto described(const Learner& learner, const Write& write) {
-  const LearnerState state = learner.state();
+  const auto state = std::make_shared<const LearnerState>(learner.state());
   safetensors::Contents contents{preamble(kFormat, kFormatVersion), {}};
   describe(state, contents);
   return write(contents);

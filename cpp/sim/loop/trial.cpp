@@ -7,6 +7,7 @@
 
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
+#include "devlearn/learner_agent.hpp"
 
 namespace devlearn {
 namespace {
@@ -48,6 +49,30 @@ SituationGrid grid_over(const World& world, const TrialConfig& config) {
   const double width = world.def().width, height = world.def().height;
   return SituationGrid(covered(width), covered(height), cells(width), cells(height),
                        config.heading_bins);
+}
+
+// What the record is told.
+Step row(std::int32_t round, const Observation& before, const Choice& choice,
+         const Observation& after, double smf, const Outcome& outcome,
+         const Development& development) {
+  Step step;
+  step.round = round;
+  step.situation = before.situation;
+  step.motion = choice.motion;
+  step.kind = choice.kind;
+  step.sef = after.sef;
+  step.smf = smf;
+  step.smf_used = outcome.smf;
+  step.collided = outcome.collided;
+  step.arrived = outcome.arrived;
+  step.goal_distance = after.goal_distance;
+  step.clearance = after.clearance;
+  step.event = development.event;
+  step.reduced = development.reduced;
+  step.explored_count = development.explored_count;
+  step.effective_count = development.effective_count;
+  step.pose = after.pose;
+  return step;
 }
 
 std::shared_ptr<Agent> paper_agent(const TrialConfig& config, std::uint64_t seed) {
@@ -94,8 +119,7 @@ Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
       seed_(seed),
       robot_(world, config.robot),
       grid_(grid_over(world, config)),
-      agent_(std::move(agent)),
-      pose_(world.def().start) {
+      agent_(std::move(agent)) {
   if (!agent_) throw InvalidValue("Trial.agent", "null", "an agent");
   if (const auto paper = learner()) {
     const int motions = paper->config().motion_count;
@@ -105,8 +129,8 @@ Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
           std::to_string(config.learner.motion_count) + ", the number of robot.steering_angles");
     }
   }
-  robot_.require_place(pose_, "start");
-  state_ = sense(pose_);
+  robot_.require_place(world.def().start, "start");
+  here_ = sense(world.def().start);
 }
 
 Step Trial::step() {
@@ -114,65 +138,42 @@ Step Trial::step() {
   return tick();
 }
 
+// The loop: a line a stage, equations as in the paper.
 Step Trial::tick() {
-  const State before = state_;
-
-  // situation -> choice
-  const Choice choice = agent_->choose({before.situation, pose_, before.sef, before.goal_distance,
-                                        before.clearance, config_.learner.motion_count});
-  if (choice.motion < 0 || choice.motion >= config_.learner.motion_count) {
-    agent_->cancel();
-    require_count("agent's motion", choice.motion, 0, config_.learner.motion_count - 1);
-  }
-
-  // choice -> motion (Eq. 1)
-  const Robot::Move moved = robot_.step(pose_, choice.motion);
-
-  // motion -> next situation and its SEF (Eq. 6)
-  const State after = sense(moved.pose);
-
-  // evaluation (Eq. 8)
+  open_round();
+  // world -> sense -> situation: as it was when the robot came here
+  const Observation before = here_;
+  // -> choice (Eq. 5 and 7)
+  const Choice choice = chosen();
+  // -> motion (Eq. 1)
+  const Robot::Move moved = robot_.step(before.pose, choice.motion);
+  // world -> sense -> situation, and its SEF (Eq. 6)
+  const Observation after = sense(moved.pose);
+  // -> evaluation (Eq. 8)
   const double smf = after.sef - before.sef;
-  const double smf_used = moved.collided ? std::min(smf, kCollisionSmf) : smf;
-
-  // development (Eq. 9-17)
-  const Development development =
-      agent_->observe({after.situation, after.sef, smf_used, moved.collided, after.arrived});
-
-  // record
-  pose_ = moved.pose;
-  state_ = after;
+  const Outcome outcome = outcome_of(after, smf, moved.collided);
+  // -> development (Eq. 9-17)
+  const Development development = agent_->observe(outcome);
+  // -> record
+  here_ = after;
   round_ = std::max(round_, 1);
-  Step step;
-  step.round = round_;
-  step.situation = before.situation;
-  step.motion = choice.motion;
-  step.kind = choice.kind;
-  step.sef = after.sef;
-  step.smf = smf;
-  step.smf_used = smf_used;
-  step.collided = moved.collided;
-  step.arrived = after.arrived;
-  step.goal_distance = after.goal_distance;
-  step.clearance = after.clearance;
-  step.event = development.event;
-  step.reduced = development.reduced;
-  step.explored_count = agent_->explored_count();
-  step.effective_count = agent_->effective_count();
-  step.pose = moved.pose;
-  return step;
+  return row(round_, before, choice, after, smf, outcome, development);
 }
 
-Trial::State Trial::sense(const Pose& pose) const {
-  State state;
-  state.situation = grid_.situation(pose.x, pose.y, pose.heading);
+// What is sensed at a pose, and its situation and SEF.
+Observation Trial::sense(const Pose& pose) const {
+  Observation there;
+  there.pose = pose;
+  there.situation = grid_.situation(pose.x, pose.y, pose.heading);
   const double dx = pose.x - world().def().target.x;
   const double dy = pose.y - world().def().target.y;
-  state.goal_distance = std::sqrt(dx * dx + dy * dy);
-  state.clearance = clearance(pose);
-  state.sef = config_.evaluation(state.goal_distance, state.clearance);
-  state.arrived = state.goal_distance <= config_.goal_radius;
-  return state;
+  there.goal_distance = std::sqrt(dx * dx + dy * dy);
+  there.clearance = clearance(pose);
+  // Eq. 6
+  there.sef = config_.evaluation(there.goal_distance, there.clearance);
+  there.estimate = there.goal_distance / (config_.robot.speed * config_.robot.sample_time);
+  there.motion_count = config_.learner.motion_count;
+  return there;
 }
 
 // d_o of Eq. 6.
@@ -184,6 +185,28 @@ double Trial::clearance(const Pose& pose) const {
   return world().clearance({pose.x, pose.y}, config_.walls_count);
 }
 
+// The agent's choice; one outside M is refused.
+Choice Trial::chosen() {
+  const Choice choice = agent_->choose(here_);
+  if (choice.motion < 0 || choice.motion >= here_.motion_count) {
+    agent_->cancel();
+    require_count("agent's motion", choice.motion, 0, here_.motion_count - 1);
+  }
+  return choice;
+}
+
+// What the agent is told of a motion.
+Outcome Trial::outcome_of(const Observation& after, double smf, bool collided) const {
+  Outcome outcome;
+  outcome.situation = after.situation;
+  outcome.sef = after.sef;
+  outcome.smf = collided ? std::min(smf, kCollisionSmf) : smf;
+  outcome.collided = collided;
+  outcome.arrived = arrived_at(after);
+  outcome.estimate = after.estimate;
+  return outcome;
+}
+
 void Trial::begin_round() { place(world().def().start); }
 
 void Trial::place(const Pose& pose) {
@@ -191,20 +214,36 @@ void Trial::place(const Pose& pose) {
   put(pose);
 }
 
-void Trial::resume(const Pose& pose, std::int32_t round) {
+void Trial::resume(const Pose& pose, std::int32_t round, bool round_open) {
   const OneCall call(under_way_);
   require_count("round", round, 0, kLastRound);
-  put(pose);
+  robot_.require_place(pose);
+  here_ = sense(pose);
   round_ = round;
+  round_open_ = round_open;
 }
 
+// A new round, from a pose.
 void Trial::put(const Pose& pose) {
   require_count("round", std::int64_t{round_} + 1, 1, kLastRound + 1);
   robot_.require_place(pose);
-  const State state = sense(pose);
-  pose_ = pose;
-  state_ = state;
+  const Observation there = sense(pose);
+  close_round(false);
+  open_round();
+  here_ = there;
   ++round_;
+}
+
+void Trial::open_round() {
+  if (round_open_) return;
+  agent_->begin_round();
+  round_open_ = true;
+}
+
+void Trial::close_round(bool arrived) {
+  if (!round_open_) return;
+  agent_->end_round(arrived);
+  round_open_ = false;
 }
 
 void Trial::run(Record& record, std::int64_t steps, const RunOptions& options) {
@@ -266,15 +305,19 @@ bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
                    const RunOptions& options) {
   record.sonar_count = options.echoes ? config_.robot.sonar_count : 0;
   if (!options.rounds_only) {
-    record.begin_round(round_, pose_);
+    record.begin_round(round_, pose());
     if (!until_arrival) record.reserve(static_cast<std::size_t>(std::min(steps, kStepsAtOnce)));
   } else if (record.rounds.empty() || record.rounds.back().round != round_) {
     record.rounds.push_back({round_, 0, false});
   }
-  if (state_.arrived && steps > 0 && until_arrival) record.rounds.back().arrived = true;
   for (std::int64_t i = 0;; ++i) {
+    const bool ended = until_arrival && arrived() && steps > 0;
+    if (ended) {
+      record.rounds.back().arrived = true;
+      close_round(true);
+    }
     if (options.interrupt && i % kStepsBetweenInterrupts == 0 && options.interrupt()) return false;
-    if (i == steps || (until_arrival && state_.arrived)) return true;
+    if (ended || i == steps) return true;
     const Step step = tick();
     if (options.rounds_only) {
       record.count(step);
@@ -282,35 +325,10 @@ bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
     }
     record.append(step);
     if (options.echoes) {
-      const std::vector<double> echoes = robot_.sonar(pose_);
+      const std::vector<double> echoes = robot_.sonar(pose());
       record.echoes.insert(record.echoes.end(), echoes.begin(), echoes.end());
     }
   }
-}
-
-Record Trial::run(std::int64_t steps, const RunOptions& options) {
-  Record record;
-  run(record, steps, options);
-  return record;
-}
-
-Record Trial::free_learning(std::int64_t steps, const RunOptions& options) {
-  Record record;
-  free_learning(record, steps, options);
-  return record;
-}
-
-Record Trial::path_learning(std::int64_t rounds, std::int64_t step_limit,
-                            const RunOptions& options) {
-  Record record;
-  path_learning(record, rounds, step_limit, options);
-  return record;
-}
-
-Record Trial::finish_round(std::int64_t steps, const RunOptions& options) {
-  Record record;
-  finish_round(record, steps, options);
-  return record;
 }
 
 std::shared_ptr<Learner> Trial::learner() const noexcept {

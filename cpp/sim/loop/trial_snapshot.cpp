@@ -7,6 +7,8 @@
 
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
+#include "devlearn/learner_agent.hpp"
+#include "devlearn/random_agent.hpp"
 #include "excerpt.hpp"
 #include "file.hpp"
 #include "json.hpp"
@@ -20,11 +22,16 @@ using safetensors::Contents;
 constexpr const char* kFormat = "devlearn-trial";
 constexpr std::uint64_t kFormatVersion = 1;
 
-constexpr const char* kLearner = "learner";
-constexpr const char* kRandom = "random";
+// Stands for an agent where there is none.
 constexpr const char* kNone = "none";
 
 constexpr const char* kConfig = "config.";
+
+// What stands before the names of an agent's texts and arrays. devlearn's first two agents stand as
+// in a snapshot of their own.
+std::string prefix_of(const std::string& kind) {
+  return kind == LearnerAgent::kKind || kind == RandomAgent::kKind ? "" : "agent.";
+}
 
 std::string box2d_version() {
   return std::to_string(b2_version.major) + "." + std::to_string(b2_version.minor) + "." +
@@ -48,8 +55,8 @@ class Description {
       contents_.metadata["agent"] = kNone;
     }
     if (options.record != nullptr) describe_record(*options.record);
-    if (!json::is_utf8(options.note)) throw InvalidValue("note", excerpt(options.note), "UTF-8");
-    if (!options.note.empty()) contents_.metadata["note"] = options.note;
+    if (!options.note.empty()) contents_.metadata["note"] = utf8("note", options.note);
+    safetensors::require_readable(contents_);
   }
   Description(const Description&) = delete;
   Description& operator=(const Description&) = delete;
@@ -63,25 +70,33 @@ class Description {
     EntryWriter entries(contents_);
     entries("trial_seed", trial.seed());
     entries("round", trial.round());
+    entries("round_open", trial.round_open());
     each_entry(trial.config(), kConfig, entries);
     pose_ = {trial.pose().x, trial.pose().y, trial.pose().heading};
     add("pose", pose_, "F64");
   }
 
   void describe_agent(const Agent& agent) {
-    if (const auto* paper = dynamic_cast<const LearnerAgent*>(&agent)) {
-      contents_.metadata["agent"] = kLearner;
-      learner_ = paper->learner()->state();
-      describe(learner_, contents_);
-    } else if (const auto* random = dynamic_cast<const RandomAgent*>(&agent)) {
-      contents_.metadata["agent"] = kRandom;
-      random_.assign(random->random().state().begin(), random->random().state().end());
-      add("random", random_, "U64");
-    } else {
+    const std::optional<AgentState> state = agent.state();
+    if (!state) {
       throw InvalidValue("Trial.agent", typeid(agent).name(),
-                         "a learner or a RandomAgent; save an agent of your own yourself, the "
-                         "trial without its agent, and give the agent when loading");
+                         "an agent with a state; save this one yourself, the trial without its "
+                         "agent, and give the agent when loading");
     }
+    if (state->kind == kNone) throw InvalidValue("Trial.agent.kind", kNone, "another name");
+    contents_.metadata["agent"] = utf8("Trial.agent.kind", state->kind);
+    const std::string prefix = prefix_of(state->kind);
+    for (const auto& [name, text] : state->texts) {
+      contents_.metadata[prefix + utf8("Trial.agent.texts", name)] = utf8(name, text);
+    }
+    for (const auto& [name, array] : state->arrays) {
+      contents_.arrays[prefix + utf8("Trial.agent.arrays", name)] = array;
+    }
+  }
+
+  static const std::string& utf8(const std::string& quantity, const std::string& text) {
+    if (!json::is_utf8(text)) throw InvalidValue(excerpt(quantity), excerpt(text), "UTF-8");
+    return text;
   }
 
   void describe_record(const Record& record) {
@@ -113,16 +128,15 @@ class Description {
     }
   }
 
+  // The values are the trial's, the record's or this description's.
   template <typename T>
   void add(const std::string& name, const std::vector<T>& values, const char* dtype) {
-    contents_.arrays[name] = safetensors::array_of(values.data(), {values.size()});
+    contents_.arrays[name] = array_over(values.data(), {values.size()}, nullptr);
     contents_.arrays[name].dtype = dtype;
   }
 
   Contents contents_;
-  LearnerState learner_;
   std::vector<double> pose_;
-  std::vector<std::uint64_t> random_;
   std::vector<std::int32_t> numbers_;
   std::vector<std::int64_t> steps_;
   std::vector<std::uint8_t> arrived_;
@@ -140,30 +154,51 @@ World world_of(const Contents& contents, const std::string& source) {
   }
 }
 
-std::shared_ptr<Agent> agent_of(const Contents& contents, const std::string& source) {
-  const std::string& kind = safetensors::entry(contents, "agent", source);
-  if (kind == kLearner) {
-    return std::make_shared<LearnerAgent>(std::make_shared<Learner>(learner_of(contents, source)));
-  }
-  if (kind == kRandom) return std::make_shared<RandomAgent>(Random(random_of(contents, source)));
-  throw FileError(source, "agent", excerpt(kind),
-                  "learner or random; or give the agent that goes on");
+// What is in the file of the agent. The arrays stay where they are.
+AgentState agent_state_of(const Contents& contents, const std::string& source) {
+  AgentState state;
+  state.kind = safetensors::entry(contents, "agent", source);
+  const std::string prefix = prefix_of(state.kind);
+  const auto take = [&](const auto& all, auto& taken) {
+    for (auto entry = all.lower_bound(prefix); entry != all.end(); ++entry) {
+      if (entry->first.compare(0, prefix.size(), prefix) != 0) break;
+      taken[entry->first.substr(prefix.size())] = entry->second;
+    }
+  };
+  take(contents.metadata, state.texts);
+  take(contents.arrays, state.arrays);
+  return state;
 }
 
-Trial trial_of(const Contents& contents, std::shared_ptr<Agent> agent, const std::string& source) {
+std::shared_ptr<Agent> agent_of(const Contents& contents, const LoadOptions& options,
+                                const std::string& source) {
+  if (options.agent) return options.agent;
+  const AgentState state = agent_state_of(contents, source);
+  std::shared_ptr<Agent> agent;
+  if (options.maker) agent = made_of(source, [&] { return options.maker(state); });
+  if (!agent) agent = make_agent(state, source);
+  if (agent) return agent;
+  throw FileError(source, "agent", excerpt(state.kind),
+                  "learner or random; or give the agent that goes on, or its maker");
+}
+
+Trial trial_of(const Contents& contents, const LoadOptions& options, const std::string& source) {
   TrialConfig config;
   std::uint64_t seed = 0;
   int round = 0;
   const EntryReader entries(contents, source);
   entries("trial_seed", seed);
   entries("round", round);
+  // Earlier files do not say.
+  bool round_open = round > 0;
+  if (entries.has("round_open")) entries("round_open", round_open);
   each_entry(config, kConfig, entries);
   const std::vector<double> pose = safetensors::values<double>(contents, "pose", {3}, source);
   const World world = world_of(contents, source);
-  if (agent == nullptr) agent = agent_of(contents, source);
+  const std::shared_ptr<Agent> agent = agent_of(contents, options, source);
   return made_of(source, [&] {
-    Trial trial(world, config, seed, std::move(agent));
-    trial.resume({pose[0], pose[1], pose[2]}, round);
+    Trial trial(world, config, seed, agent);
+    trial.resume({pose[0], pose[1], pose[2]}, round, round_open);
     return trial;
   });
 }
@@ -221,23 +256,23 @@ std::vector<std::byte> to_bytes(const Trial& trial, const SaveOptions& options) 
   return safetensors::to_bytes(Description(trial, options).contents());
 }
 
-TrialSnapshot load_trial(const std::string& path, std::shared_ptr<Agent> agent) {
+TrialSnapshot load_trial(const std::string& path, const LoadOptions& options) {
   const std::vector<std::byte> bytes = bytes_of_file(path);
-  return load_trial(bytes.data(), bytes.size(), std::move(agent), path);
+  return load_trial(bytes.data(), bytes.size(), options, path);
 }
 
-TrialSnapshot load_trial(std::istream& stream, std::shared_ptr<Agent> agent) {
+TrialSnapshot load_trial(std::istream& stream, const LoadOptions& options) {
   const std::vector<std::byte> bytes = safetensors::read_stream(stream);
-  return load_trial(bytes.data(), bytes.size(), std::move(agent), "stream");
+  return load_trial(bytes.data(), bytes.size(), options, "stream");
 }
 
-TrialSnapshot load_trial(const std::byte* bytes, std::size_t size, std::shared_ptr<Agent> agent,
+TrialSnapshot load_trial(const std::byte* bytes, std::size_t size, const LoadOptions& options,
                          const std::string& source) {
   const Contents contents = safetensors::read(bytes, size, source);
   require_format(contents, kFormat, kFormatVersion, source);
   const auto entry = contents.metadata.find("note");
   const std::string note = entry == contents.metadata.end() ? "" : entry->second;
-  return {trial_of(contents, std::move(agent), source), record_of(contents, source), note};
+  return {trial_of(contents, options, source), record_of(contents, source), note};
 }
 
 }  // namespace devlearn

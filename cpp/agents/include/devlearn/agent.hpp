@@ -1,11 +1,16 @@
 #pragma once
 
-#include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "devlearn/choice.hpp"
 #include "devlearn/learner.hpp"
-#include "devlearn/random.hpp"
 #include "devlearn/situation.hpp"
+#include "devlearn/state.hpp"
 
 namespace devlearn {
 
@@ -16,6 +21,7 @@ struct Observation {
   double sef = 0.0;            ///< SEF here
   double goal_distance = 0.0;  ///< d_g [m]
   double clearance = 0.0;      ///< d_o [m]
+  double estimate = 0.0;       ///< cost to go at the least: d_g / (v t_s), in steps; at least 0
   int motion_count = 0;        ///< choose one in 0 ... motion_count - 1
 };
 
@@ -26,55 +32,59 @@ struct Outcome {
   double smf = 0.0;            ///< as learned from: min(SMF, -1) for a collision
   bool collided = false;       ///< the body touched something
   bool arrived = false;        ///< d_g <= goal_radius
+  double estimate = 0.0;       ///< cost to go from there, as in Observation
+  double cost = 1.0;           ///< what the step cost: 1
+  /// -cost
+  double reward() const noexcept { return -cost; }
 };
 
-/// Whoever chooses motions in a trial.
+/// What an agent goes on from: texts and arrays by name, in UTF-8.
+struct AgentState {
+  std::string kind;                          ///< what it is, so that its maker knows it
+  std::map<std::string, std::string> texts;  ///< by name
+  StateArrays arrays;                        ///< by name; see array_of
+
+  /// A text that must be there. Throws InvalidValue, naming it.
+  const std::string& text(const std::string& name) const;
+  /// The values of an array that must be there, with this shape. Throws InvalidValue, naming it.
+  template <typename T>
+  std::vector<T> values(const std::string& name, const Shape& shape) const {
+    return values_of<T>(arrays, name, shape);
+  }
+};
+
+/// Whoever chooses motions in a trial. What is called when:
+///
+///     begin_round, then choose and observe once a step, then end_round
+///
+/// A round ends where path learning arrives (arrived = true), or when the next one begins (false):
+/// that a phase is over, a limit reached or a trial saved ends none. Steps after an arrival begin
+/// another. Where an agent throws, the trial is left as it was.
 class Agent {
  public:
   virtual ~Agent() = default;
+  /// A round begins.
+  virtual void begin_round() {}
   /// Step 3: a motion for what is observed.
   virtual Choice choose(const Observation& observation) = 0;
-  /// Steps 4-5: what came of it.
+  /// Steps 4-5: what came of it. What it returns goes into the record; an agent without such lists
+  /// returns {}.
   virtual Development observe(const Outcome& outcome) = 0;
-  /// The choice just made was not executed.
+  /// The choice just made was refused, and not executed.
   virtual void cancel() {}
-  /// NUM_RM, for the record; 0 for agents without such lists.
-  virtual std::int64_t explored_count() const { return 0; }
-  /// NUM_M, likewise.
-  virtual std::int64_t effective_count() const { return 0; }
+  /// The round has ended, at the target or not.
+  virtual void end_round(bool arrived) { static_cast<void>(arrived); }
+  /// All that it goes on from, so that a trial can be saved with it; nothing where it cannot.
+  virtual std::optional<AgentState> state() const { return std::nullopt; }
 };
 
-/// The paper's learner as an agent; it shares the learner with whoever else holds it.
-class LearnerAgent final : public Agent {
- public:
-  /// learner: not null.
-  explicit LearnerAgent(std::shared_ptr<Learner> learner);
-  Choice choose(const Observation& observation) override;
-  Development observe(const Outcome& outcome) override;
-  void cancel() override;
-  std::int64_t explored_count() const override;
-  std::int64_t effective_count() const override;
-  /// The learner, never null.
-  const std::shared_ptr<Learner>& learner() const noexcept { return learner_; }
+/// Makes the agent of a state, or null where the kind is none of its own. Throws InvalidValue for a
+/// state that does not fit. The arrays are those of a file that is being read: take what is to
+/// stay.
+using AgentMaker = std::function<std::shared_ptr<Agent>(const AgentState&)>;
 
- private:
-  std::shared_ptr<Learner> learner_;
-};
-
-/// Uniformly random motions: what learning is measured against. It states the kind kUnstated.
-class RandomAgent final : public Agent {
- public:
-  /// seed: of the stream "agent".
-  explicit RandomAgent(std::uint64_t seed) : random_(seed, "agent") {}
-  /// One that goes on from a generator.
-  explicit RandomAgent(const Random& random) : random_(random) {}
-  Choice choose(const Observation& observation) override;
-  Development observe(const Outcome& outcome) override;
-  /// What it draws from.
-  const Random& random() const noexcept { return random_; }
-
- private:
-  Random random_;
-};
+/// That of devlearn's own agents: the kinds `learner` and `random`. Throws FileError, naming
+/// `source`, for a state that does not fit.
+std::shared_ptr<Agent> make_agent(const AgentState& state, const std::string& source = "state");
 
 }  // namespace devlearn

@@ -87,6 +87,8 @@ struct Development {
   int motion = -1;                ///< learned about
   Event event = Event::kNothing;  ///< what became of it
   int reduced = 0;  ///< motions that reduction development (Eq. 14-17) moved to M-bar_i
+  std::int64_t explored_count = 0;   ///< NUM_RM, after it
+  std::int64_t effective_count = 0;  ///< NUM_M, after it
 };
 
 /// All that a learner remembers, as arrays: S situations in the order they were first experienced,

@@ -81,7 +81,8 @@ struct RunOptions {
 /// -> record.
 ///
 /// A new trial stands at the world's start. Its rounds are numbered from 1; the first begins with
-/// whatever is called first. One call at a time: an agent that moves its own trial is refused.
+/// whatever is called first. One call at a time: an agent that moves its own trial is refused. What
+/// an agent is told of rounds is in Agent.
 class Trial {
  public:
   /// With a learner of its own from config.learner and `seed`. Throws InvalidValue.
@@ -90,29 +91,24 @@ class Trial {
   Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
         std::shared_ptr<Agent> agent);
 
-  /// One tick of the loop. Where an agent throws, the trial is left as it was.
+  /// One step: once around the loop. Where an agent throws, the trial is left as it was.
   Step step();
 
-  /// `steps` ticks from where the robot is, in the present round.
-  Record run(std::int64_t steps, const RunOptions& options = {});
+  ///@{
+  /// The phases append to a record: what is finished is kept there even where an agent throws.
+  /// Throws InvalidValue for a record that has steps or echoes where it now would not, or the
+  /// reverse.
+
+  /// `steps` steps from where the robot is, in the present round.
+  void run(Record& record, std::int64_t steps, const RunOptions& options = {});
   /// A new round of `steps` steps from the start pose; reaching the target ends nothing.
-  Record free_learning(std::int64_t steps, const RunOptions& options = {});
+  void free_learning(Record& record, std::int64_t steps, const RunOptions& options = {});
   /// `rounds` new rounds from the start pose, each until the target is reached, or failed
   /// (arrived = false) after `step_limit` steps. A round that begins at the target has no step.
-  Record path_learning(std::int64_t rounds, std::int64_t step_limit = 10000,
-                       const RunOptions& options = {});
-
+  void path_learning(Record& record, std::int64_t rounds, std::int64_t step_limit = 10000,
+                     const RunOptions& options = {});
   /// Goes on with the present round until the target is reached, for at most `steps` steps: what
   /// finishes a round of path learning that was interrupted.
-  Record finish_round(std::int64_t steps, const RunOptions& options = {});
-
-  ///@{
-  /// The same, appended to a record: what is finished is kept there even where an agent throws.
-  /// Throws InvalidValue for one that has steps or echoes where it now would not, or the reverse.
-  void run(Record& record, std::int64_t steps, const RunOptions& options = {});
-  void free_learning(Record& record, std::int64_t steps, const RunOptions& options = {});
-  void path_learning(Record& record, std::int64_t rounds, std::int64_t step_limit,
-                     const RunOptions& options = {});
   void finish_round(Record& record, std::int64_t steps, const RunOptions& options = {});
   ///@}
 
@@ -120,18 +116,20 @@ class Trial {
   void begin_round();
   /// Puts the robot anywhere it fits for a new round. Throws InvalidValue.
   void place(const Pose& pose);
-  /// Puts the robot where it was in a round, 0 before the first: what goes on from a snapshot.
-  /// Throws InvalidValue.
-  void resume(const Pose& pose, std::int32_t round);
+  /// Puts the robot where it was in a round, 0 before the first, of which the agent was told or
+  /// not: what goes on from a snapshot. Throws InvalidValue.
+  void resume(const Pose& pose, std::int32_t round, bool round_open);
 
   /// Where the robot is [m, m, degrees].
-  const Pose& pose() const noexcept { return pose_; }
+  const Pose& pose() const noexcept { return here_.pose; }
   /// The present round, from 1; 0 before the first.
   std::int32_t round() const noexcept { return round_; }
+  /// Whether the agent is in a round: told that it began, and not yet that it ended.
+  bool round_open() const noexcept { return round_open_; }
   /// Whether a call is under way, as its agent may see.
   bool under_way() const noexcept { return under_way_; }
   /// Whether the robot is at the target: d_g <= goal_radius.
-  bool arrived() const noexcept { return state_.arrived; }
+  bool arrived() const noexcept { return arrived_at(here_); }
   ///@{
   /// What it was made of.
   const World& world() const noexcept { return robot_.world(); }
@@ -145,16 +143,17 @@ class Trial {
   std::shared_ptr<Learner> learner() const noexcept;
 
  private:
-  /// What is sensed at a pose.
-  struct State {
-    SituationId situation = -1;
-    double goal_distance = 0.0, clearance = 0.0, sef = 0.0;
-    bool arrived = false;
-  };
   Step tick();
-  void put(const Pose& pose);
-  State sense(const Pose& pose) const;
+  Observation sense(const Pose& pose) const;
   double clearance(const Pose& pose) const;
+  bool arrived_at(const Observation& place) const noexcept {
+    return place.goal_distance <= config_.goal_radius;
+  }
+  Choice chosen();
+  Outcome outcome_of(const Observation& after, double smf, bool collided) const;
+  void put(const Pose& pose);
+  void open_round();
+  void close_round(bool arrived);
   void require_like(const Record& record, const RunOptions& options) const;
   void go_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
   bool run_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
@@ -164,10 +163,20 @@ class Trial {
   Robot robot_;
   SituationGrid grid_;
   std::shared_ptr<Agent> agent_;
-  Pose pose_;
-  State state_;
+  Observation here_;
   std::int32_t round_ = 0;
+  bool round_open_ = false;
   bool under_way_ = false;
 };
+
+/// A new record of what `phases(record)` appends to it.
+///
+///     const Record record = recorded([&](Record& r) { trial.free_learning(r, 10000); });
+template <typename Phases>
+Record recorded(const Phases& phases) {
+  Record record;
+  phases(record);
+  return record;
+}
 
 }  // namespace devlearn

@@ -19,13 +19,14 @@ namespace devlearn {
 /// What goes into a trial's snapshot besides the trial.
 struct SaveOptions {
   const Record* record = nullptr;  ///< saved with the trial
-  /// Only the paper's learner and RandomAgent can be saved. Save an agent of your own yourself, the
-  /// trial without it, and give it to load_trial.
+  /// Whether the agent is saved, too. One without a state() cannot be: save it yourself, the trial
+  /// without it, and give it to load_trial.
   bool agent = true;
   std::string note;  ///< any text in UTF-8, kept in the file
 };
 
-/// Written as a learner's is. Throws FileError; InvalidValue for an agent that cannot be saved, a
+/// Written as a learner's is. Throws FileError; InvalidValue for an agent without a state, or with
+/// one that a file cannot hold (too many arrays, names or texts that are no UTF-8), a
 /// record that Record::validate refuses, a note that is no UTF-8, or while a call into the trial is
 /// under way.
 void save(const Trial& trial, const std::string& path, const SaveOptions& options = {});
@@ -39,12 +40,18 @@ struct TrialSnapshot {
   std::string note;              ///< as given to save
 };
 
-/// `agent` takes the place of the one in the file. Throws FileError, saying what is wrong, for
-/// whatever load_learner refuses, and for a world, pose or record that does not fit.
-TrialSnapshot load_trial(const std::string& path, std::shared_ptr<Agent> agent = nullptr);
-TrialSnapshot load_trial(std::istream& stream, std::shared_ptr<Agent> agent = nullptr);
-TrialSnapshot load_trial(const std::byte* bytes, std::size_t size,
-                         std::shared_ptr<Agent> agent = nullptr,
+/// Who goes on in a trial that is loaded; by default the agent in the file.
+struct LoadOptions {
+  std::shared_ptr<Agent> agent;  ///< takes the place of the one in the file
+  AgentMaker maker = nullptr;    ///< makes agents of one's own from what is in the file
+};
+
+/// Throws FileError, saying what is wrong, for whatever load_learner refuses, for a world, pose or
+/// record that does not fit, and for an agent of a kind that is not devlearn's and that no maker
+/// knows.
+TrialSnapshot load_trial(const std::string& path, const LoadOptions& options = {});
+TrialSnapshot load_trial(std::istream& stream, const LoadOptions& options = {});
+TrialSnapshot load_trial(const std::byte* bytes, std::size_t size, const LoadOptions& options = {},
                          const std::string& source = "snapshot");
 
 }  // namespace devlearn

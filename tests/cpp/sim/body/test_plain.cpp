@@ -115,7 +115,8 @@ TEST_CASE("Histories of learning are those of the plain loop, to the bit") {
     const Pose& start = world.def().start;
     if (world.clearance({start.x, start.y}, true) < config.robot.radius) continue;
     const auto seed = static_cast<std::uint64_t>(n);
-    const Record record = Trial(world, config, seed).free_learning(kSteps);
+    Record record;
+    Trial(world, config, seed).free_learning(record, kSteps);
     const Record expected = plain::free_learning(world, config, seed, kSteps);
     REQUIRE(record.situation == expected.situation);
     REQUIRE(record.motion == expected.motion);

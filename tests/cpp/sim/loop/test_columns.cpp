@@ -29,7 +29,8 @@ TEST_CASE("every field of a trial's configuration is saved, at any depth") {
 
 TEST_CASE("every column has a value a step or a pose, is saved, and refuses what it cannot hold") {
   Trial trial(World{});
-  const Record record = trial.free_learning(50);
+  Record record;
+  trial.free_learning(record, 50);
   devlearn::SaveOptions options;
   options.record = &record;
   const auto bytes = to_bytes(trial, options);

@@ -12,6 +12,8 @@
 
 #include "core/refusal.hpp"
 #include "devlearn/error.hpp"
+#include "devlearn/learner_agent.hpp"
+#include "devlearn/random_agent.hpp"
 #include "devlearn/trial.hpp"
 #include "sim/open_world.hpp"
 
@@ -197,11 +199,11 @@ TEST_CASE("the same seed gives the same history, another seed another one") {
 TEST_CASE("one call, pieces, and step by step give the same history") {
   const World world = shipped("paper");
   Trial whole(world, {}, 3), pieces(world, {}, 3), steps(world, {}, 3);
-  const Record record = whole.free_learning(1000);
+  const Record record = recorded([&](Record& r) { whole.free_learning(r, 1000); });
 
-  Record joined = pieces.free_learning(1);
+  Record joined = recorded([&](Record& r) { pieces.free_learning(r, 1); });
   for (const int count : {0, 7, 300, 692}) {
-    const Record piece = pieces.run(count);
+    const Record piece = recorded([&](Record& r) { pieces.run(r, count); });
     REQUIRE(piece.steps() == static_cast<std::size_t>(count));
     CHECK(piece.x.front() == joined.x.back());
     for (std::size_t i = 0; i < piece.steps(); ++i) {
@@ -228,8 +230,8 @@ TEST_CASE("asking for echoes or for interrupts does not change the history") {
   RunOptions options;
   options.echoes = true;
   options.interrupt = [] { return false; };
-  const Record record = plain.free_learning(800);
-  Record heard = watched.free_learning(800, options);
+  const Record record = recorded([&](Record& r) { plain.free_learning(r, 800); });
+  Record heard = recorded([&](Record& r) { watched.free_learning(r, 800, options); });
   CHECK(heard.sonar_count == 5);
   CHECK(heard.echoes.size() == 4000);
   heard.echoes.clear();
@@ -254,18 +256,20 @@ TEST_CASE("a run that keeps only rounds has the same history, and keeps the same
   }
   CHECK(rounds.steps() == 0);
   CHECK(rounds.x.empty());
-  CHECK(same(plain.run(500), brief.run(500)));
+  CHECK(same(recorded([&](Record& r) { plain.run(r, 500); }),
+             recorded([&](Record& r) { brief.run(r, 500); })));
 
   CHECK_THROWS_AS(plain.run(kept, 1, options), InvalidValue);
   CHECK_THROWS_AS(plain.run(rounds, 1), InvalidValue);
   options.echoes = true;
-  CHECK_THROWS_AS(plain.run(1, options), InvalidValue);
+  Record none;
+  CHECK_THROWS_AS(plain.run(none, 1, options), InvalidValue);
 }
 
 TEST_CASE("trials that take turns do not disturb each other") {
   Trial alone(shipped("paper"), {}, 11), one(shipped("paper"), {}, 11),
       other(shipped("clutter"), {}, 12);
-  const Record record = alone.free_learning(300);
+  const Record record = recorded([&](Record& r) { alone.free_learning(r, 300); });
   Record turns;
   turns.begin_round(1, one.pose());
   for (int i = 0; i < 300; ++i) {
@@ -278,14 +282,15 @@ TEST_CASE("trials that take turns do not disturb each other") {
 TEST_CASE("an interrupted run goes on as if nothing had been") {
   const World world = shipped("paper");
   Trial whole(world, {}, 9), stopped(world, {}, 9);
-  const Record record = whole.free_learning(2000);
+  const Record record = recorded([&](Record& r) { whole.free_learning(r, 2000); });
   RunOptions options;
   int asked = 0;
   options.interrupt = [&] { return ++asked == 20; };
-  const Record first = stopped.free_learning(2000, options);
+  const Record first = recorded([&](Record& r) { stopped.free_learning(r, 2000, options); });
   CHECK(first.steps() > 0);
   CHECK(first.steps() < 2000);
-  const Record rest = stopped.run(2000 - static_cast<std::int64_t>(first.steps()));
+  const Record rest =
+      recorded([&](Record& r) { stopped.run(r, 2000 - static_cast<std::int64_t>(first.steps())); });
   std::vector<int> motions(first.motion.begin(), first.motion.end());
   motions.insert(motions.end(), rest.motion.begin(), rest.motion.end());
   CHECK(std::equal(motions.begin(), motions.end(), record.motion.begin(), record.motion.end()));
@@ -300,7 +305,8 @@ TEST_CASE("rounds without a step can be interrupted, too") {
   RunOptions options;
   int asked = 0;
   options.interrupt = [&] { return ++asked == 20; };
-  CHECK(trial.path_learning(1 << 30, 10, options).rounds.size() == 20);
+  CHECK(recorded([&](Record& r) { trial.path_learning(r, 1 << 30, 10, options); }).rounds.size() ==
+        20);
 }
 
 // --- what a record says --------------------------------------------------------------------------
@@ -313,7 +319,7 @@ TEST_CASE("every column follows from the poses, the world and the learner's laws
     Trial trial(world, config, 4);
     RunOptions options;
     options.echoes = true;
-    const Record record = trial.free_learning(2000, options);
+    const Record record = recorded([&](Record& r) { trial.free_learning(r, 2000, options); });
     const Robot robot(world, config.robot);
     std::int64_t wrong = 0, explored = 0, effective = 0;
     double sef_before = 0.0;
@@ -364,7 +370,7 @@ TEST_CASE("free rounds are numbered 1 and 2, path learning's from 3") {
   REQUIRE(record.rounds.size() == 22);
   for (std::size_t i = 0; i < 22; ++i) CHECK(record.rounds[i].round == static_cast<int>(i) + 1);
   CHECK(trial.round() == 22);
-  CHECK(trial.run(5).rounds.front().round == 22);
+  CHECK(recorded([&](Record& r) { trial.run(r, 5); }).rounds.front().round == 22);
   trial.place({2.0, 1.5, 90.0});
   CHECK(trial.round() == 23);
 }
@@ -372,8 +378,8 @@ TEST_CASE("free rounds are numbered 1 and 2, path learning's from 3") {
 TEST_CASE("a round of path learning begins at the start and ends where it arrives, or fails") {
   const World world = shipped("empty");
   Trial trial(world, {}, 2);
-  trial.free_learning(3000);
-  const Record record = trial.path_learning(60, 300);
+  recorded([&](Record& r) { trial.free_learning(r, 3000); });
+  const Record record = recorded([&](Record& r) { trial.path_learning(r, 60, 300); });
   REQUIRE(record.rounds.size() == 60);
   std::size_t step = 0;
   int arrived = 0;
@@ -397,7 +403,7 @@ TEST_CASE("a round of path learning that begins at the target has no step and ha
   def.target = {def.start.x, def.start.y};
   Trial trial(World(def), {}, 1);
   CHECK(trial.arrived());
-  const Record record = trial.path_learning(3);
+  const Record record = recorded([&](Record& r) { trial.path_learning(r, 3); });
   CHECK(record.steps() == 0);
   REQUIRE(record.rounds.size() == 3);
   for (const Round& round : record.rounds) {
@@ -405,7 +411,8 @@ TEST_CASE("a round of path learning that begins at the target has no step and ha
     CHECK(round.arrived);
   }
   CHECK(record.x == std::vector<double>(3, def.start.x));
-  CHECK(trial.free_learning(10).steps() == 10);  // where reaching the target ends nothing
+  CHECK(recorded([&](Record& r) { trial.free_learning(r, 10); }).steps() ==
+        10);  // where reaching the target ends nothing
 }
 
 // --- agents --------------------------------------------------------------------------------------
@@ -414,19 +421,18 @@ TEST_CASE("a shared learner goes on from trial to trial") {
   const auto learner = std::make_shared<Learner>(LearnerConfig{}, 6);
   const auto agent = std::make_shared<LearnerAgent>(learner);
   Trial first(shipped("paper"), {}, 0, agent), second(shipped("paper"), {}, 0, agent);
-  first.free_learning(500);
+  recorded([&](Record& r) { first.free_learning(r, 500); });
   const auto explored = learner->explored_count();
   CHECK(explored > 0);
-  const Record record = second.free_learning(500);
+  const Record record = recorded([&](Record& r) { second.free_learning(r, 500); });
   CHECK(record.explored_count.front() >= explored);
   CHECK(second.learner() == learner);
   // The trial's seed draws nothing where the agent is given.
   Trial own(shipped("paper"), {}, 6);
-  CHECK(own.free_learning(500).motion ==
-        Trial(shipped("paper"), {}, 99,
-              std::make_shared<LearnerAgent>(std::make_shared<Learner>(LearnerConfig{}, 6)))
-            .free_learning(500)
-            .motion);
+  Trial given(shipped("paper"), {}, 99,
+              std::make_shared<LearnerAgent>(std::make_shared<Learner>(LearnerConfig{}, 6)));
+  CHECK(same(recorded([&](Record& r) { own.free_learning(r, 500); }),
+             recorded([&](Record& r) { given.free_learning(r, 500); })));
 }
 
 TEST_CASE("an agent is told before each choice and after each motion what the record says") {
@@ -439,11 +445,12 @@ TEST_CASE("an agent is told before each choice and after each motion what the re
   };
   agent->observing = [&](const Outcome& outcome) { told.push_back(outcome); };
   Trial trial(shipped("paper"), {}, 0, agent);
-  const Record record = trial.free_learning(400);
+  const Record record = recorded([&](Record& r) { trial.free_learning(r, 400); });
   for (std::size_t i = 0; i < 400; ++i) {
     CHECK(asked[i].situation == record.situation[i]);
     CHECK(asked[i].pose == Pose{record.x[i], record.y[i], record.heading[i]});
     CHECK(asked[i].motion_count == 5);
+    CHECK(asked[i].estimate == asked[i].goal_distance / (0.1 * 0.5));
     if (i > 0) CHECK(asked[i].sef == record.sef[i - 1]);
     if (i > 0) CHECK(asked[i].clearance == record.clearance[i - 1]);
     if (i > 0) CHECK(asked[i].goal_distance == record.goal_distance[i - 1]);
@@ -452,10 +459,158 @@ TEST_CASE("an agent is told before each choice and after each motion what the re
     CHECK(told[i].smf == record.smf_used[i]);
     CHECK(told[i].collided == static_cast<bool>(record.collided[i]));
     CHECK(told[i].arrived == static_cast<bool>(record.arrived[i]));
+    if (i + 1 < 400) CHECK(told[i].estimate == asked[i + 1].estimate);
+    CHECK(told[i].cost == 1.0);
+    CHECK(told[i].reward() == -1.0);
     CHECK(record.kind[i] == static_cast<int>(Kind::kExploit));
     CHECK(record.explored_count[i] == 0);
   }
   CHECK(trial.learner() == nullptr);
+}
+
+// --- what an agent is told of rounds -------------------------------------------------------------
+
+namespace {
+
+/// Drives straight on, and keeps a letter of each call: (b)egun, (s)tep chosen and observed,
+/// (T)rue or (F)alse at a round's end. It throws at a call of its choice, once.
+class Diary final : public Agent {
+ public:
+  void begin_round() override { write("b"); }
+  Choice choose(const Observation&) override {
+    write("");
+    return {2, Kind::kUnstated};
+  }
+  Development observe(const Outcome&) override {
+    write("s");
+    return {};
+  }
+  void end_round(bool arrived) override { write(arrived ? "T" : "F"); }
+
+  std::string text;
+  int throws_at = -1;
+
+ private:
+  void write(const char* letter) {
+    if (calls_++ == throws_at) throw std::runtime_error("at this call");
+    text += letter;
+  }
+  int calls_ = 0;
+};
+
+// The target is eight steps straight ahead.
+World straight_on(double target = 1.475) {
+  WorldDef def;
+  def.start = {1.0, 1.0, 0.0};
+  def.target = {target, 1.0};
+  return World(def);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a round begins before its first choice, and ends at the target or when the next begins") {
+  const auto diary = std::make_shared<Diary>();
+  Trial trial(straight_on(), {}, 0, diary);
+  Record record;
+  const auto told = [&](const char* expected) {
+    CHECK(diary->text == expected);
+    diary->text.clear();
+  };
+  CHECK_FALSE(trial.round_open());
+  trial.step();
+  trial.run(record, 0);
+  trial.run(record, 2);
+  told("bsss");
+  CHECK(trial.round_open());
+  trial.free_learning(record, 10);  // over the target
+  told("Fbssssssssss");
+  trial.free_learning(record, 0);
+  told("Fb");
+  trial.path_learning(record, 2);
+  told("FbssssssssTbssssssssT");
+  CHECK_FALSE(trial.round_open());
+  trial.finish_round(record, 5);  // it is finished
+  told("");
+  trial.path_learning(record, 2, 3);  // both fail
+  told("bsssFbsss");
+  trial.finish_round(record, 4);
+  told("ssss");
+  trial.finish_round(record, 4);
+  told("sT");
+  trial.run(record, 2);  // where the last ended
+  told("bss");
+  trial.begin_round();
+  trial.place({3.0, 3.0, 90.0});
+  told("FbFb");
+  trial.step();
+  told("s");
+}
+
+TEST_CASE("a round of path learning that begins at the target begins and ends without a step") {
+  const auto diary = std::make_shared<Diary>();
+  Trial trial(straight_on(1.05), {}, 0, diary);
+  Record record;
+  trial.path_learning(record, 3);
+  CHECK(diary->text == "bTbTbT");
+}
+
+TEST_CASE("an agent is told the same of rounds however often path learning is interrupted") {
+  constexpr std::int64_t kRounds = 3;
+  for (const std::int64_t limit : {5, 8, 100}) {
+    const auto unbroken = std::make_shared<Diary>();
+    Record whole;
+    Trial(straight_on(), {}, 0, unbroken).path_learning(whole, kRounds, limit);
+    for (int every = 1; every < 9; ++every) {
+      const auto diary = std::make_shared<Diary>();
+      Trial trial(straight_on(), {}, 0, diary);
+      Record record;
+      int looks = 0;
+      RunOptions options;
+      options.interrupt = [&] { return ++looks % (every + 1) == 0; };
+      trial.path_learning(record, kRounds, limit, options);
+      for (int i = 0; i < 1000; ++i) {
+        const Round& last = record.rounds.back();
+        const bool finished = last.arrived || last.steps == limit;
+        if (finished && record.rounds.size() == kRounds) break;
+        if (finished) {
+          trial.path_learning(record, kRounds - static_cast<std::int64_t>(record.rounds.size()),
+                              limit, options);
+        } else {
+          trial.finish_round(record, limit - last.steps, options);
+        }
+      }
+      CHECK(diary->text == unbroken->text);
+      CHECK(same(record, whole));
+    }
+  }
+}
+
+TEST_CASE("where an agent throws at any of its calls, going on makes up for it") {
+  const auto unbroken = std::make_shared<Diary>();
+  Record whole;
+  Trial(straight_on(), {}, 0, unbroken).path_learning(whole, 3);
+  for (int call = 0;; ++call) {
+    const auto diary = std::make_shared<Diary>();
+    diary->throws_at = call;
+    Trial trial(straight_on(), {}, 0, diary);
+    Record record;
+    bool thrown = false;
+    try {
+      trial.path_learning(record, 3);
+    } catch (const std::runtime_error&) {
+      thrown = true;
+      const std::string told = diary->text;
+      CHECK(trial.round_open() == (!told.empty() && told.back() != 'T'));
+      CHECK(trial.round() == static_cast<std::int32_t>(record.rounds.size()));
+      if (!record.rounds.empty()) trial.finish_round(record, 100);
+      trial.path_learning(record, 3 - static_cast<std::int64_t>(record.rounds.size()));
+    }
+    CHECK(diary->text == unbroken->text);
+    CHECK(same(record, whole));
+    if (!thrown) break;
+    REQUIRE(call < 100);
+  }
 }
 
 TEST_CASE("where an agent throws, the trial is left as it was and what is finished is kept") {
@@ -506,24 +661,29 @@ TEST_CASE("a motion outside M is refused by name, and its agent told that it was
 TEST_CASE("an agent that moves its own trial is refused, whatever it calls") {
   const auto agent = std::make_shared<Scripted>();
   Trial trial(shipped("paper"), {}, 0, agent);
+  Record record;
   for (const std::function<void()>& call : std::vector<std::function<void()>>{
-           [&] { trial.step(); }, [&] { trial.run(1); }, [&] { trial.free_learning(1); },
-           [&] { trial.path_learning(1); }, [&] { trial.begin_round(); },
+           [&] { trial.step(); }, [&] { trial.run(record, 1); },
+           [&] { trial.free_learning(record, 1); }, [&] { trial.path_learning(record, 1); },
+           [&] { trial.finish_round(record, 1); }, [&] { trial.begin_round(); },
            [&] {
              trial.place({2.0, 1.5, 0.0});
            }}) {
     agent->observing = [&](const Outcome&) { call(); };
     check_refused([&] { trial.step(); }, "Trial", "a call while another is under way");
-    check_refused([&] { trial.free_learning(5); }, "Trial", "a call while another is under way");
+    check_refused([&] { trial.free_learning(record, 5); }, "Trial",
+                  "a call while another is under way");
     CHECK(trial.pose() == trial.world().def().start);
   }
   agent->observing = [](const Outcome&) {};
-  CHECK(trial.run(3).steps() == 3);
+  CHECK(recorded([&](Record& r) { trial.run(r, 3); }).steps() == 3);
 }
 
 TEST_CASE("random motions are uniform, seeded, and learn nothing") {
   const auto history = [](std::uint64_t seed) {
-    return Trial(shipped("paper"), {}, 0, std::make_shared<RandomAgent>(seed)).free_learning(5000);
+    return recorded([&](Record& r) {
+      Trial(shipped("paper"), {}, 0, std::make_shared<RandomAgent>(seed)).free_learning(r, 5000);
+    });
   };
   const Record record = history(1);
   CHECK(record.motion == history(1).motion);
@@ -606,7 +766,7 @@ TEST_CASE("a trial refuses what it cannot begin with") {
 
 TEST_CASE("a trial refuses lengths out of range and places that do not fit, and stays as it was") {
   Trial trial(shipped("paper"), {}, 1);
-  trial.run(50);
+  recorded([&](Record& r) { trial.run(r, 50); });
   const Pose pose = trial.pose();
   Record record;
   check_refused([&] { trial.run(record, -1); }, "steps", "-1");
@@ -633,7 +793,8 @@ TEST_CASE("a record goes on with as many echoes a step as it began with") {
   Trial trial(World(), config, 3);
   RunOptions heard;
   heard.echoes = true;
-  Record with = trial.free_learning(4, heard), without = trial.free_learning(4);
+  Record with = recorded([&](Record&r) { trial.free_learning(r, 4, heard); }),
+         without = recorded([&](Record&r) { trial.free_learning(r, 4); });
   const Pose pose = trial.pose();
   for (const auto& [record, options] : {std::pair{&with, RunOptions{}}, {&without, heard}}) {
     const std::string value = std::to_string(record->sonar_count);

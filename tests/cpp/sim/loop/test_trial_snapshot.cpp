@@ -10,6 +10,8 @@
 #include "core/kept_snapshots.hpp"
 #include "core/refusal.hpp"
 #include "core/snapshot_bytes.hpp"
+#include "devlearn/learner_agent.hpp"
+#include "devlearn/random_agent.hpp"
 #include "devlearn/snapshot.hpp"
 #include "devlearn/trial_snapshot.hpp"
 #include "sim/open_world.hpp"
@@ -34,7 +36,7 @@ TrialConfig sonar_config() {
 }
 
 TrialSnapshot loaded(const Bytes& bytes, std::shared_ptr<Agent> agent = nullptr) {
-  return load_trial(bytes.data(), bytes.size(), std::move(agent), "it");
+  return load_trial(bytes.data(), bytes.size(), {std::move(agent)}, "it");
 }
 
 // Equal in all that is in a snapshot, to the bit.
@@ -118,7 +120,7 @@ TEST_CASE("a trial that has not begun survives, too") {
 
 TEST_CASE("random motions go on as they would have") {
   Trial trial(shipped("empty"), {}, 1, std::make_shared<RandomAgent>(5));
-  trial.free_learning(100);
+  recorded([&](Record& r) { trial.free_learning(r, 100); });
   TrialSnapshot snapshot = loaded(to_bytes(trial));
   CHECK(snapshot.trial.learner() == nullptr);
   require_equal_futures(std::move(trial), std::move(snapshot.trial));
@@ -168,7 +170,7 @@ TEST_CASE("path learning stopped anywhere goes on so that the joined record is t
 TEST_CASE("an agent of one's own is refused with what to do, and takes its place when loading") {
   const auto own = std::make_shared<Own>();
   Trial trial(shipped("empty"), {}, 1, own);
-  trial.free_learning(33);
+  recorded([&](Record& r) { trial.free_learning(r, 33); });
   const std::string path = std::string(DEVLEARN_BINARY_DIR) + "/own.safetensors";
   std::remove(path.c_str());
   for (const auto& saving : {std::function<void()>([&] { save(trial, path); }),
@@ -189,9 +191,128 @@ TEST_CASE("an agent of one's own is refused with what to do, and takes its place
   const auto again = std::make_shared<Own>(*own);
   Trial resumed = loaded(bytes, again).trial;
   CHECK(resumed.agent() == again);
-  const Record a = trial.run(50), b = resumed.run(50);
+  const Record a = recorded([&](Record&r) { trial.run(r, 50); }),
+               b = recorded([&](Record&r) { resumed.run(r, 50); });
   CHECK(a.x == b.x);
   CHECK(a.motion == b.motion);
+}
+
+namespace {
+
+// A number of ours, that decides which way to go.
+class Counting final : public Agent {
+ public:
+  Counting() = default;
+  explicit Counting(const AgentState& state)
+      : steps(state.values<std::int64_t>("steps", {})[0]), rounds(state.text("rounds")) {}
+  void begin_round() override { rounds += "b"; }
+  Choice choose(const Observation&) override {
+    return {static_cast<int>(steps * steps % 5), Kind::kUnstated};
+  }
+  Development observe(const Outcome&) override {
+    ++steps;
+    return {};
+  }
+  void end_round(bool arrived) override { rounds += arrived ? "T" : "F"; }
+  std::optional<AgentState> state() const override {
+    return AgentState{kind, {{"rounds", rounds}}, {{"steps", array_of<std::int64_t>({steps}, {})}}};
+  }
+  std::int64_t steps = 0;
+  std::string rounds, kind = "counting";
+};
+
+std::shared_ptr<Agent> counting(const AgentState& state) {
+  return state.kind == "counting" ? std::make_shared<Counting>(state) : nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("an agent of one's own is saved with the trial, and its maker makes it again") {
+  const auto agent = std::make_shared<Counting>();
+  Trial trial(shipped("empty"), {}, 1, agent);
+  Record record;
+  trial.free_learning(record, 33);
+  const Bytes bytes = to_bytes(trial);
+  CHECK(refusal(bytes) == "agent");
+
+  Trial resumed = load_trial(bytes.data(), bytes.size(), {nullptr, counting}, "it").trial;
+  CHECK(resumed.round_open());
+  CHECK(to_bytes(resumed) == bytes);
+  Record again;
+  trial.run(record = {}, 50);
+  trial.path_learning(record, 2, 60);
+  resumed.run(again, 50);
+  resumed.path_learning(again, 2, 60);
+  CHECK(again.x == record.x);
+  CHECK(std::dynamic_pointer_cast<Counting>(resumed.agent())->rounds == agent->rounds);
+  CHECK(to_bytes(resumed) == to_bytes(trial));
+}
+
+TEST_CASE("a maker that does not know the kind leaves it to devlearn") {
+  const Lived lived;
+  const Bytes bytes = lived.bytes();
+  const auto snapshot = load_trial(bytes.data(), bytes.size(), {nullptr, counting}, "it");
+  CHECK(same(snapshot.trial, *snapshot.record, lived.trial, lived.record));
+}
+
+TEST_CASE("a state that does not fit its maker is refused as the file's fault") {
+  const auto agent = std::make_shared<Counting>();
+  SnapshotBytes lie{to_bytes(Trial(shipped("empty"), {}, 1, agent))};
+  REQUIRE(lie.replace("\"agent.steps\":{\"dtype\":\"I64\"", "\"agent.steps\":{\"dtype\":\"U64\""));
+  const Bytes bytes = lie.mended();
+  try {
+    load_trial(bytes.data(), bytes.size(), {nullptr, counting}, "it");
+    FAIL("not refused");
+  } catch (const FileError& error) {
+    CHECK(error.file() == "it");
+    CHECK(error.field() == "steps");
+    CHECK(error.value() == "U64");
+  }
+}
+
+TEST_CASE("a state that a file cannot hold is not saved") {
+  class Odd final : public Agent {
+   public:
+    explicit Odd(AgentState state) : state_(std::move(state)) {}
+    Choice choose(const Observation&) override { return {0, Kind::kUnstated}; }
+    Development observe(const Outcome&) override { return {}; }
+    std::optional<AgentState> state() const override { return state_; }
+
+   private:
+    AgentState state_;
+  };
+  const auto refused = [](const AgentState& state, const char* quantity, const char* value) {
+    const Trial trial(shipped("empty"), {}, 1, std::make_shared<Odd>(state));
+    check_refused([&] { to_bytes(trial); }, quantity, value);
+  };
+  refused({"none", {}, {}}, "Trial.agent.kind", "none");
+  refused({"\xff", {}, {}}, "Trial.agent.kind", "?");
+  refused({"odd", {{"\xff", ""}}, {}}, "Trial.agent.texts", "?");
+  refused({"odd", {{"name", "\xff"}}, {}}, "name", "?");
+  StateArray array = array_of(std::vector<double>(3));
+  refused({"odd", {}, {{"\xff", array}}}, "Trial.agent.arrays", "?");
+  array.shape = {4};
+  refused({"odd", {}, {{"q", array}}}, "agent.q.shape", "24 bytes");
+  array.dtype = "F32";
+  refused({"odd", {}, {{"q", array}}}, "agent.q.dtype", "F32");
+  AgentState many{"odd", {}, {}};
+  for (int i = 0; i < 100'000; ++i) many.texts[std::to_string(i)] = "";
+  const Trial trial(shipped("empty"), {}, 1, std::make_shared<Odd>(many));
+  CHECK_THROWS_AS(to_bytes(trial), InvalidValue);
+}
+
+TEST_CASE("whether a round is open is saved; a file that does not say has one where it has begun") {
+  Lived lived;
+  CHECK(loaded(lived.bytes()).trial.round_open() == lived.trial.round_open());
+  for (const char* open : {"true", "false"}) {
+    SnapshotBytes bytes{lived.bytes()};
+    REQUIRE(bytes.set_entry("round_open", open));
+    CHECK(loaded(bytes.mended()).trial.round_open() == (std::string(open) == "true"));
+    REQUIRE(bytes.replace("\"round_open\"", "\"rounds_open\""));
+    CHECK(loaded(bytes.mended()).trial.round_open());
+    REQUIRE(bytes.set_entry("round", "0"));
+    CHECK_FALSE(loaded(bytes.mended()).trial.round_open());
+  }
 }
 
 TEST_CASE("the agent that is given goes on instead of the one in the file") {
@@ -264,7 +385,7 @@ TEST_CASE("trials that earlier versions saved have the past and the future that 
   };
   const auto past = [](const std::string& path) {
     Trial trial = in_open_world();
-    trial.free_learning(150);
+    recorded([&](Record& r) { trial.free_learning(r, 150); });
     Record record;
     trial.free_learning(record, 40, {true, {}});
     save(trial, path, {&record, true, "kept"});
@@ -357,6 +478,7 @@ TEST_CASE("a trial's snapshot that lies is refused, naming the lie") {
     CHECK(with_entry("round", "-1") == "round");
     CHECK(with_entry("round", "2147483647") == "round");
     CHECK(with_entry("round", "99999999999") == "round");
+    CHECK(with_entry("round_open", "perhaps") == "round_open");
   }
   SUBCASE("about the world") {
     CHECK(with_text("\\\"arena\\\"", "\\\"arenas\\\"") == "world.arenas");

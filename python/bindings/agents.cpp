@@ -1,0 +1,255 @@
+#include "agents.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "bindings.hpp"
+#include "devlearn/agent.hpp"
+#include "devlearn/detail/require.hpp"
+#include "devlearn/learner_agent.hpp"
+#include "devlearn/random_agent.hpp"
+
+namespace devlearn::python {
+namespace {
+
+// --- what an agent written in Python goes on from -----------------------------------------------
+
+struct Type {
+  const char* dtype;  // in a snapshot
+  const char* numpy;
+};
+constexpr Type kTypes[] = {{"F64", "f8"}, {"I64", "i8"}, {"U64", "u8"}, {"I32", "i4"},
+                           {"U32", "u4"}, {"U16", "u2"}, {"U8", "u1"},  {"BOOL", "b1"}};
+
+// A class as files name it. Nothing is imported by this name.
+std::string name_of(const py::object& type) {
+  return py::str(py::str("{}:{}").format(type.attr("__module__"), type.attr("__qualname__")));
+}
+
+[[noreturn]] void refuse_entry(const std::string& name, const py::object& value) {
+  throw InvalidValue("agent.state()[" + name + "]",
+                     py::str("{} {}").format(py::type::of(value), py::repr(value)),
+                     "a str, a number, or a numpy array of float64, int64, uint64, int32, uint32, "
+                     "uint16, uint8 or bool");
+}
+
+// A copy of a number or a numpy array.
+StateArray array_from(const std::string& name, const py::object& value) {
+  const py::module_ numpy = py::module_::import("numpy");
+  const bool number = py::isinstance<py::bool_>(value) || py::isinstance<py::int_>(value) ||
+                      py::isinstance<py::float_>(value) ||
+                      py::isinstance(value, numpy.attr("generic"));
+  if (!number && !py::isinstance<py::array>(value)) refuse_entry(name, value);
+  const py::object found = numpy.attr("asarray")(value).attr("dtype");
+  for (const Type& type : kTypes) {
+    const py::object dtype = numpy.attr("dtype")(type.numpy);
+    if (!found.attr("newbyteorder")("=").equal(dtype)) continue;
+    auto* const array = new py::array(numpy.attr("array")(
+        value, py::arg("dtype") = dtype, py::arg("copy") = true, py::arg("order") = "C"));
+    const std::shared_ptr<const void> owner(array, [](const py::array* owned) {
+      const py::gil_scoped_acquire gil;
+      delete owned;
+    });
+    const Shape shape(array->shape(), array->shape() + array->ndim());
+    return {type.dtype,
+            shape,
+            {owner, static_cast<const std::byte*>(array->data())},
+            static_cast<std::size_t>(array->nbytes())};
+  }
+  refuse_entry(name, value);
+}
+
+AgentState state_from(const py::object& agent) {
+  const py::object given = agent.attr("state")();
+  if (!py::isinstance<py::dict>(given)) {
+    throw InvalidValue("agent.state()", py::repr(given), "a dict of numpy arrays by name");
+  }
+  AgentState state;
+  state.kind = name_of(py::type::of(agent));
+  for (const auto& [key, value] : given.cast<py::dict>()) {
+    const std::string shown = py::repr(key);
+    if (!py::isinstance<py::str>(key)) {
+      throw InvalidValue("agent.state()", shown, "a name that is a str");
+    }
+    const auto name = key.cast<std::string>();
+    if (py::isinstance<py::str>(value)) {
+      state.texts[name] = value.cast<std::string>();
+    } else {
+      state.arrays[name] = array_from(shown, py::reinterpret_borrow<py::object>(value));
+    }
+  }
+  return state;
+}
+
+// The reverse: texts as str, arrays without dimensions as numbers, others as numpy arrays.
+py::dict dict_of(const AgentState& state) {
+  py::dict result;
+  for (const auto& [name, text] : state.texts) result[py::str(name)] = py::str(text);
+  for (const auto& [name, array] : state.arrays) {
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(array.data.get());
+    if (array.dtype == "BOOL") {
+      for (std::size_t i = 0; i < array.bytes; ++i) require_count(name, first[i], 0, 1);
+    }
+    const auto* const type = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                          [&](const Type& t) { return array.dtype == t.dtype; });
+    const std::vector<py::ssize_t> shape(array.shape.begin(), array.shape.end());
+    const py::object values = py::array(py::dtype(type->numpy), shape, first);
+    result[py::str(name)] = shape.empty() ? py::object(values.attr("item")()) : values;
+  }
+  return result;
+}
+
+// --- agents written in Python --------------------------------------------------------------------
+
+/// An agent written in Python.
+class PythonAgent final : public Agent {
+ public:
+  explicit PythonAgent(py::object agent) : agent_(std::move(agent)) {
+    for (const char* method : {"choose", "observe"}) {
+      if (!py::hasattr(agent_, method)) {
+        throw InvalidValue("agent", py::repr(agent_),
+                           "None, a Learner, or an object with choose(observation) and "
+                           "observe(outcome)");
+      }
+    }
+  }
+  ~PythonAgent() override {
+    const py::gil_scoped_acquire gil;
+    agent_ = py::object();
+  }
+  PythonAgent(const PythonAgent&) = delete;
+  PythonAgent& operator=(const PythonAgent&) = delete;
+
+  void begin_round() override { call_if_there("begin_round"); }
+
+  Choice choose(const Observation& observation) override {
+    const py::gil_scoped_acquire gil;
+    const py::object chosen = agent_.attr("choose")(observation);
+    py::detail::make_caster<Choice> choice;
+    if (choice.load(chosen, true)) return choice;
+    if (!PyIndex_Check(chosen.ptr())) {
+      throw InvalidValue("agent's choice", py::repr(chosen), "a motion index or a Choice");
+    }
+    return {chosen.cast<Whole<MotionTag>>().value, Kind::kUnstated};
+  }
+
+  Development observe(const Outcome& outcome) override {
+    const py::gil_scoped_acquire gil;
+    const py::object result = agent_.attr("observe")(outcome);
+    py::detail::make_caster<Development> development;
+    return development.load(result, true) ? Development(development) : Development{};
+  }
+
+  void cancel() override { call_if_there("cancel"); }
+  void end_round(bool arrived) override { call_if_there("end_round", arrived); }
+
+  std::optional<AgentState> state() const override {
+    const py::gil_scoped_acquire gil;
+    if (py::hasattr(agent_, "state") && py::hasattr(py::type::of(agent_), "from_state")) {
+      return state_from(agent_);
+    }
+    throw InvalidValue("agent", py::repr(agent_),
+                       "a Learner, a RandomAgent, or an agent with state() and a classmethod "
+                       "from_state; save any other yourself, the trial with without_agent=True, "
+                       "and give it to load as agent=");
+  }
+
+  const py::object& object() const { return agent_; }
+
+ private:
+  template <typename... Arguments>
+  void call_if_there(const char* method, Arguments... arguments) {
+    const py::gil_scoped_acquire gil;
+    if (py::hasattr(agent_, method)) agent_.attr(method)(arguments...);
+  }
+
+  py::object agent_;
+};
+
+}  // namespace
+
+std::shared_ptr<Agent> as_agent(const py::object& agent) {
+  if (py::isinstance<RandomAgent>(agent)) return agent.cast<std::shared_ptr<RandomAgent>>();
+  if (py::isinstance<Learner>(agent) && !py::hasattr(agent, "observe")) {
+    return std::make_shared<LearnerAgent>(agent.cast<std::shared_ptr<Learner>>());
+  }
+  return std::make_shared<PythonAgent>(agent);
+}
+
+py::object agent_of(const Trial& trial) {
+  if (const auto* python = dynamic_cast<const PythonAgent*>(trial.agent().get())) {
+    return python->object();
+  }
+  if (const auto learner = trial.learner()) return py::cast(learner);
+  return py::cast(std::dynamic_pointer_cast<RandomAgent>(trial.agent()));
+}
+
+LoadOptions load_options(const py::object& agent) {
+  if (agent.is_none()) return {};
+  if (!PyType_Check(agent.ptr())) return {as_agent(agent)};
+  if (!py::hasattr(agent, "from_state")) {
+    throw InvalidValue("agent", py::repr(agent), "an agent, or a class with from_state");
+  }
+  const AgentMaker make = [agent](const AgentState& state) {
+    const py::gil_scoped_acquire gil;
+    // A module may have moved, or be the program itself.
+    const std::string name = py::str(agent.attr("__qualname__"));
+    if (state.kind.substr(state.kind.find(':') + 1) != name) {
+      throw InvalidValue("agent", state.kind, "one of " + name + ", the class given");
+    }
+    return as_agent(agent.attr("from_state")(dict_of(state)));
+  };
+  return {nullptr, make};
+}
+
+void bind_agents(py::module_& m) {
+  // What it says of itself: a number a field.
+  const auto shown = [](const char* format, std::vector<std::string> names) {
+    return [format, names = std::move(names)](const py::object& self) {
+      return py::str(format).format(*attributes(self, names));
+    };
+  };
+  py::class_<Observation>(m, "Observation", "What an agent knows when it chooses.")
+      .def_readonly("situation", &Observation::situation, "The present situation's id.")
+      .def_readonly("pose", &Observation::pose, "[m, m, degrees]")
+      .def_readonly("sef", &Observation::sef, "SEF here.")
+      .def_readonly("goal_distance", &Observation::goal_distance, "d_g [m]")
+      .def_readonly("clearance", &Observation::clearance, "d_o [m]")
+      .def_readonly("estimate", &Observation::estimate,
+                    "Cost to go at the least: d_g / (v t_s), in steps; at least 0.")
+      .def_readonly("motion_count", &Observation::motion_count,
+                    "Choose one in 0 ... motion_count - 1.")
+      .def(
+          "__repr__",
+          shown(
+              "<devlearn.Observation: situation {0}, pose ({1.x:.4g}, {1.y:.4g}, {1.heading:.4g}), "
+              "sef {2:.4g}, goal_distance {3:.4g}, clearance {4:.4g}, estimate {5:.4g}, "
+              "motion_count {6}>",
+              {"situation", "pose", "sef", "goal_distance", "clearance", "estimate",
+               "motion_count"}));
+  py::class_<Outcome>(m, "Outcome", "What an agent is told about the motion it chose.")
+      .def_readonly("situation", &Outcome::situation, "The next situation's id.")
+      .def_readonly("sef", &Outcome::sef, "SEF there.")
+      .def_readonly("smf", &Outcome::smf, "SMF as learned from: min(SMF, -1) for a collision.")
+      .def_readonly("collided", &Outcome::collided, "Whether the body touched something.")
+      .def_readonly("arrived", &Outcome::arrived, "d_g <= goal_radius.")
+      .def_readonly("estimate", &Outcome::estimate, "Cost to go from there, as in Observation.")
+      .def_readonly("cost", &Outcome::cost, "What the step cost: 1.")
+      .def_property_readonly("reward", &Outcome::reward, "-cost.")
+      .def(
+          "__repr__",
+          shown("<devlearn.Outcome: situation {}, sef {:.4g}, smf {:.4g}, collided {}, arrived {}, "
+                "estimate {:.4g}, cost {:.4g}, reward {:.4g}>",
+                {"situation", "sef", "smf", "collided", "arrived", "estimate", "cost", "reward"}));
+
+  py::class_<RandomAgent, std::shared_ptr<RandomAgent>>(
+      m, "RandomAgent", "Uniformly random motions: what learning is measured against.")
+      .def(py::init([](Whole<SeedTag> seed) { return std::make_shared<RandomAgent>(seed.value); }),
+           py::arg("seed") = 0)
+      .def(py::pickle(
+          [](const RandomAgent& self) { return self.random().state(); },
+          [](const Random::State& state) { return std::make_shared<RandomAgent>(Random(state)); }));
+}
+
+}  // namespace devlearn::python
