@@ -51,7 +51,8 @@ void drive(const World& world) {
   } catch (const InvalidValue&) {  // no room at the start, or too many situations
     return;
   }
-  trial->run(16);
+  Record record;
+  trial->run(record, 16);
   fuzz::require_laws(*trial->learner());
 
   constexpr std::size_t kMost = 12;
