@@ -73,7 +73,10 @@ void bind_situation(py::module_& m) {
       "heading_of_yaw", [](double yaw) { return Pose::from_radians(0.0, 0.0, yaw).heading; },
       py::arg("yaw"), "Pose.from_radians, its heading alone.");
   m.def(
-      "yaw_of_heading", [](double heading) { return Pose{0.0, 0.0, heading}.yaw(); },
+      "yaw_of_heading",
+      [](double heading) {
+        return Pose{0.0, 0.0, heading}.yaw();
+      },
       py::arg("heading"), "Pose.yaw of a heading.");
   py::class_<SituationGrid>(
       m, "SituationGrid",
