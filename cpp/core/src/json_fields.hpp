@@ -22,8 +22,9 @@ typename Field::Value value_at(const Node& node, const Field& field) {
   if constexpr (std::is_same_v<Range, detail::Nested>) {
     return def_at<T>(node);
   } else if constexpr (std::is_same_v<Range, detail::List>) {
-    const auto& [count, each] = field.range;
-    if (!count.allows(static_cast<long long>(node.size()))) node.refuse(field.allowed());
+    const detail::Interval& each = field.range.each;
+    if (!field.range.count.allows(static_cast<long long>(node.size())))
+      node.refuse(field.allowed());
     T values;
     node.each_element([&](const Node& element) {
       values.push_back(element.number(each.text()));
