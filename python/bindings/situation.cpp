@@ -84,13 +84,15 @@ void bind_situation(py::module_& m) {
       "Cells are half-open; the arena's far borders belong to the last cells. Heading bin k is\n"
       "centred on k * 360 / headings degrees. id = (row * columns + column) * headings + bin.\n\n"
       "Parameters: width, height in (0, 10000] m; columns, rows in 1 ... 100000; headings in\n"
-      "1 ... 3600. Raises InvalidValue.")
+      "1 ... 3600; origin (x, y), the arena's corner of least x and y, each within 1e7 m of 0.\n"
+      "Raises InvalidValue.")
       .def(py::init([](double width, double height, Whole<ColumnsTag> columns, Whole<RowsTag> rows,
-                       Whole<HeadingsTag> headings) {
-             return SituationGrid(width, height, columns.value, rows.value, headings.value);
+                       Whole<HeadingsTag> headings, Point origin) {
+             return SituationGrid(width, height, columns.value, rows.value, headings.value, origin);
            }),
            py::arg("width") = 5.0, py::arg("height") = 5.0, py::arg("columns") = 20,
-           py::arg("rows") = 20, py::arg("headings") = 12)
+           py::arg("rows") = 20, py::arg("headings") = 12,
+           py::arg("origin") = py::make_tuple(0.0, 0.0))
       .def(
           "situation", &SituationGrid::situation, py::arg("x"), py::arg("y"), py::arg("heading"),
           "The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers "
@@ -110,12 +112,14 @@ void bind_situation(py::module_& m) {
       .def_property_readonly("columns", &SituationGrid::columns, "Cells along x.")
       .def_property_readonly("rows", &SituationGrid::rows, "Cells along y.")
       .def_property_readonly("headings", &SituationGrid::headings, "Heading bins.")
+      .def_property_readonly("origin", &SituationGrid::origin, "(x, y) [m]")
       .def("__repr__", [](const SituationGrid& self) {
         return "SituationGrid(width=" + to_text(self.width()) +
                ", height=" + to_text(self.height()) +
                ", columns=" + std::to_string(self.columns()) +
                ", rows=" + std::to_string(self.rows()) +
-               ", headings=" + std::to_string(self.headings()) + ")";
+               ", headings=" + std::to_string(self.headings()) + ", origin=(" +
+               to_text(self.origin().x) + ", " + to_text(self.origin().y) + "))";
       });
 }
 

@@ -86,18 +86,22 @@ void bind_world(py::module_& m) {
       "An arena with walls, obstacles, a start and a target; checked once, then unchanging.\n\n"
       "Parameters: width, height of the arena in [0.5, 1000] m; start (x, y, heading) and target\n"
       "(x, y) inside it and outside every obstacle, in metres and degrees; obstacles, a list of\n"
-      "Circle, Rectangle and Polygon. Raises InvalidValue.");
-  def_pickling(world, {"width", "height", "start", "target", "obstacles", "name", "description"});
+      "Circle, Rectangle and Polygon; origin (x, y), the arena's corner of least x and y, each\n"
+      "within 100 000 m of 0. Raises InvalidValue.");
+  def_pickling(
+      world, {"width", "height", "start", "target", "obstacles", "name", "description", "origin"});
   world
       .def(py::init([](double width, double height, const Pose& start, const Point& target,
-                       std::vector<Obstacle> obstacles, std::string name, std::string description) {
-             return World(WorldDef{std::move(name), std::move(description), width, height, start,
-                                   target, std::move(obstacles)});
+                       std::vector<Obstacle> obstacles, std::string name, std::string description,
+                       const Point& origin) {
+             return World(WorldDef{std::move(name), std::move(description), width, height, origin,
+                                   start, target, std::move(obstacles)});
            }),
            py::arg("width") = 5.0, py::arg("height") = 5.0,
            py::arg("start") = py::make_tuple(0.5, 0.5, 0.0),
            py::arg("target") = py::make_tuple(4.5, 4.5), py::arg("obstacles") = py::list(),
-           py::arg("name") = "", py::arg("description") = "")
+           py::arg("name") = "", py::arg("description") = "",
+           py::arg("origin") = py::make_tuple(0.0, 0.0))
       .def_static(
           "load",
           [](const py::object& path_or_name) {
@@ -143,6 +147,9 @@ void bind_world(py::module_& m) {
           "width", [](const World& self) { return self.def().width; }, "[m]")
       .def_property_readonly(
           "height", [](const World& self) { return self.def().height; }, "[m]")
+      .def_property_readonly(
+          "origin", [](const World& self) { return self.def().origin; },
+          "The arena's corner of least x and y, (x, y) [m]")
       .def_property_readonly(
           "start", [](const World& self) { return self.def().start; }, "Pose [m, m, degrees]")
       .def_property_readonly(

@@ -95,7 +95,8 @@ class SituationGrid:
     centred on k * 360 / headings degrees. id = (row * columns + column) * headings + bin.
 
     Parameters: width, height in (0, 10000] m; columns, rows in 1 ... 100000; headings in
-    1 ... 3600. Raises InvalidValue.
+    1 ... 3600; origin (x, y), the arena's corner of least x and y, each within 1e7 m of 0.
+    Raises InvalidValue.
     """
     def __init__(
         self,
@@ -104,6 +105,7 @@ class SituationGrid:
         columns: typing.SupportsIndex = 20,
         rows: typing.SupportsIndex = 20,
         headings: typing.SupportsIndex = 12,
+        origin: collections.abc.Sequence[float] = (0.0, 0.0),
     ) -> None: ...
     def __repr__(self) -> str: ...
     def centre(self, situation: typing.SupportsIndex) -> devlearn._types.Pose:
@@ -146,6 +148,11 @@ class SituationGrid:
     def height(self) -> float:
         """
         [m]
+        """
+    @property
+    def origin(self) -> tuple[float, float]:
+        """
+        (x, y) [m]
         """
     @property
     def rows(self) -> int:
@@ -725,7 +732,8 @@ class World:
 
     Parameters: width, height of the arena in [0.5, 1000] m; start (x, y, heading) and target
     (x, y) inside it and outside every obstacle, in metres and degrees; obstacles, a list of
-    Circle, Rectangle and Polygon. Raises InvalidValue.
+    Circle, Rectangle and Polygon; origin (x, y), the arena's corner of least x and y, each
+    within 100 000 m of 0. Raises InvalidValue.
     """
     @staticmethod
     def from_json(text: str) -> World:
@@ -748,6 +756,7 @@ class World:
         obstacles: collections.abc.Sequence[Circle | Rectangle | Polygon] = [],
         name: str = "",
         description: str = "",
+        origin: collections.abc.Sequence[float] = (0.0, 0.0),
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -804,6 +813,11 @@ class World:
     def obstacles(self) -> list[Circle | Rectangle | Polygon]:
         """
         Circle, Rectangle and Polygon, as a list.
+        """
+    @property
+    def origin(self) -> tuple[float, float]:
+        """
+        The arena's corner of least x and y, (x, y) [m]
         """
     @property
     def start(self) -> devlearn._types.Pose:

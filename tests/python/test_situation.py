@@ -15,6 +15,7 @@ grids = st.builds(
     st.integers(1, 1000),
     st.integers(1, 1000),
     st.integers(1, 3600),
+    st.tuples(st.floats(-1e5, 1e5), st.floats(-1e5, 1e5)),
 )
 
 
@@ -22,7 +23,9 @@ def test_the_default_grid_is_the_papers():
     grid = SituationGrid()
     assert (grid.width, grid.height, grid.columns, grid.rows, grid.headings) == (5, 5, 20, 20, 12)
     assert grid.count == 4800
-    assert repr(grid) == "SituationGrid(width=5, height=5, columns=20, rows=20, headings=12)"
+    assert repr(grid) == (
+        "SituationGrid(width=5, height=5, columns=20, rows=20, headings=12, origin=(0, 0))"
+    )
 
 
 @given(st.integers(0, 2**32 - 1))

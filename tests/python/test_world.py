@@ -267,6 +267,31 @@ def test_what_a_world_cannot_be_is_refused_by_the_field_of_its_file(quantity, ar
     refused(lambda: World(**arguments), quantity)
 
 
+def test_an_arena_may_begin_anywhere():
+    there = World(
+        origin=(256, -128),
+        start=(256.5, -127.5, 0),
+        target=(260.5, -123.5),
+        obstacles=[Circle((258, -126), 0.5)],
+    )
+    here = World(obstacles=[Circle((2, 2), 0.5)])
+    assert (here.origin, there.origin) == ((0, 0), (256, -128))
+    assert there != here
+    for again in (World.from_json(there.to_json()), pickle.loads(pickle.dumps(there))):
+        assert again == there
+        assert again.origin == there.origin
+    VALIDATOR.validate(json.loads(there.to_json()))
+    assert "origin" not in here.to_json()
+    x, y = np.meshgrid(np.linspace(0, 5, 20), np.linspace(0, 5, 20))
+    for walls in (False, True):
+        ours = here.clearance(x, y, walls_count=walls)
+        theirs = there.clearance(x + 256, y - 128, walls_count=walls)
+        assert np.abs(ours - theirs).max() < 1e-12
+    assert devlearn.Trial(there).grid.origin == (256, -128)
+    assert "[256, 261]" in refused(lambda: there.with_start((0.5, 0.5, 0)), "start.x").allowed
+    assert "[-1e+05, 1e+05]" in refused(lambda: World(origin=(1e6, 0)), "arena.origin[0]").allowed
+
+
 def test_another_start_is_another_world_and_a_bad_one_changes_nothing(paper):
     other = paper.with_start((4.5, 0.5, 90))
     assert other.start == (4.5, 0.5, 90)

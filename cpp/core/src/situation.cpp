@@ -9,6 +9,7 @@ namespace devlearn {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kFurthest = 1e7;  // of an origin from 0 [m]: doubles still tell nanometres
 
 }  // namespace
 
@@ -22,13 +23,21 @@ double Pose::yaw() const noexcept {
   return (wrapped > 180.0 ? wrapped - 360.0 : wrapped) / 180.0 * kPi;
 }
 
-SituationGrid::SituationGrid(double width, double height, int columns, int rows, int headings)
-    : width_(width), height_(height), columns_(columns), rows_(rows), headings_(headings) {
+SituationGrid::SituationGrid(double width, double height, int columns, int rows, int headings,
+                             Point origin)
+    : width_(width),
+      height_(height),
+      columns_(columns),
+      rows_(rows),
+      headings_(headings),
+      origin_(origin) {
   require_above("SituationGrid.width", width, 0.0, 10000.0, "m");
   require_above("SituationGrid.height", height, 0.0, 10000.0, "m");
   require_count("SituationGrid.columns", columns, 1, 100000);
   require_count("SituationGrid.rows", rows, 1, 100000);
   require_count("SituationGrid.headings", headings, 1, 3600);
+  require_in("SituationGrid.origin.x", origin.x, -kFurthest, kFurthest, "m");
+  require_in("SituationGrid.origin.y", origin.y, -kFurthest, kFurthest, "m");
   cell_width_ = width / columns;
   cell_height_ = height / rows;
   heading_step_ = 360.0 / headings;
@@ -52,14 +61,14 @@ void SituationGrid::situations(const double* poses, std::size_t stride, std::siz
 }
 
 void SituationGrid::require_inside(double x, double y, double heading) const {
-  require_in("x", x, 0.0, width_, "m");
-  require_in("y", y, 0.0, height_, "m");
+  require_in("x", x, origin_.x, origin_.x + width_, "m");
+  require_in("y", y, origin_.y, origin_.y + height_, "m");
   require_finite("heading", heading);
 }
 
 SituationId SituationGrid::id_of(double x, double y, double heading) const noexcept {
-  const int column = std::min(static_cast<int>(x / cell_width_), columns_ - 1);
-  const int row = std::min(static_cast<int>(y / cell_height_), rows_ - 1);
+  const int column = std::min(static_cast<int>((x - origin_.x) / cell_width_), columns_ - 1);
+  const int row = std::min(static_cast<int>((y - origin_.y) / cell_height_), rows_ - 1);
   // The nearest bin; adding a half before rounding down would itself round, up across a border.
   const double wrapped = wrapped_heading(heading);
   int bin = static_cast<int>(wrapped / heading_step_);
@@ -70,8 +79,8 @@ SituationId SituationGrid::id_of(double x, double y, double heading) const noexc
 Pose SituationGrid::centre(SituationId situation) const {
   require_count("situation", situation, 0, count() - 1);
   const SituationId cell = situation / headings_;
-  return {(static_cast<double>(cell % columns_) + 0.5) * cell_width_,
-          (static_cast<double>(cell / columns_) + 0.5) * cell_height_,
+  return {origin_.x + (static_cast<double>(cell % columns_) + 0.5) * cell_width_,
+          origin_.y + (static_cast<double>(cell / columns_) + 0.5) * cell_height_,
           static_cast<double>(situation % headings_) * heading_step_};
 }
 

@@ -93,8 +93,9 @@ std::vector<double> Robot::sonar(const Pose& pose) const {
 void Robot::require_place(const Pose& pose, const char* what) const {
   if (is_finite(pose) && world_->clearance({pose.x, pose.y}, true) >= def_.radius - kSlop) return;
   const std::string name = what;
-  require_in(name + ".x", pose.x, 0.0, world_->def().width, "m");
-  require_in(name + ".y", pose.y, 0.0, world_->def().height, "m");
+  const Point low = world_->def().origin, high = world_->def().far_corner();
+  require_in(name + ".x", pose.x, low.x, high.x, "m");
+  require_in(name + ".y", pose.y, low.y, high.y, "m");
   require_finite(name + ".heading", pose.heading);
   const double clearance = world_->clearance({pose.x, pose.y}, true);
   throw InvalidValue(name, "a place " + to_text(clearance) + " m from the nearest surface",

@@ -25,7 +25,9 @@ struct Node {
 class Cells {
  public:
   Cells(const World& world, double cell)
-      : cell_(cell), columns_(static_cast<std::int64_t>(world.def().width / cell) + 1) {
+      : origin_(world.def().origin),
+        cell_(cell),
+        columns_(static_cast<std::int64_t>(world.def().width / cell) + 1) {
     const double cells = (world.def().width / cell) * (world.def().height / cell);
     if (!(cells <= 1e9)) {
       throw InvalidValue("shortest_path's cells", to_text(cells),
@@ -36,12 +38,13 @@ class Cells {
   std::int64_t of(const Pose& pose) const noexcept {
     constexpr std::int64_t kHeadings = 360;
     const std::int64_t heading = std::llround(pose.heading) % kHeadings;
-    const auto column = static_cast<std::int64_t>(pose.x / cell_);
-    const auto row = static_cast<std::int64_t>(pose.y / cell_);
+    const auto column = static_cast<std::int64_t>((pose.x - origin_.x) / cell_);
+    const auto row = static_cast<std::int64_t>((pose.y - origin_.y) / cell_);
     return (row * columns_ + column) * kHeadings + heading;
   }
 
  private:
+  Point origin_;
   double cell_;
   std::int64_t columns_;
 };

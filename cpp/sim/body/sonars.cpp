@@ -22,13 +22,13 @@ class NearestHit : public b2RayCastCallback {
 
 // Both ends overlap the next edge by some units in the last place of a float, so that no ray slips
 // through a corner.
-b2EdgeShape overlapping(const Edge& edge) {
-  const Point side = edge.b - edge.a;
-  const double furthest = std::max(
-      {1.0, std::abs(edge.a.x), std::abs(edge.a.y), std::abs(edge.b.x), std::abs(edge.b.y)});
+b2EdgeShape overlapping(Point a, Point b) {
+  const Point side = b - a;
+  const double furthest =
+      std::max({1.0, std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
   const double overlap = 1e-6 * furthest / std::sqrt(squared_length(side));
   b2EdgeShape shape;
-  shape.SetTwoSided(vector(along(edge.a, side, -overlap)), vector(along(edge.b, side, overlap)));
+  shape.SetTwoSided(vector(along(a, side, -overlap)), vector(along(b, side, overlap)));
   return shape;
 }
 
@@ -37,17 +37,18 @@ b2EdgeShape overlapping(const Edge& edge) {
 Sonars::Sonars(const World& world, const RobotDef& robot)
     : standing_(b2Vec2(0.0f, 0.0f)),
       angles_(robot.sonar_angles()),
+      origin_(world.def().origin),
       radius_(robot.radius),
       range_(robot.sonar_range) {
   b2BodyDef ground_def;
   b2Body* ground = standing_.CreateBody(&ground_def);
   for (const Edge& edge : world.surfaces().edges()) {
-    const b2EdgeShape shape = overlapping(edge);
+    const b2EdgeShape shape = overlapping(edge.a - origin_, edge.b - origin_);
     ground->CreateFixture(&shape, 0.0f);
   }
   for (const Circle& circle : world.surfaces().circles()) {
     b2CircleShape shape;
-    shape.m_p = vector(circle.center);
+    shape.m_p = vector(circle.center - origin_);
     shape.m_radius = static_cast<float>(circle.radius);
     ground->CreateFixture(&shape, 0.0f);
   }
@@ -56,11 +57,11 @@ Sonars::Sonars(const World& world, const RobotDef& robot)
 void Sonars::listen(const Pose& pose, double* echoes) const {
   // From the centre: the body holds nothing but slop, and no ray begins inside a shape.
   const double reach = radius_ + range_;
+  const Point at = Point{pose.x, pose.y} - origin_;
   for (const double angle : angles_) {
     const Direction ray = direction(pose.heading + angle);
     NearestHit nearest;
-    standing_.RayCast(&nearest, vector({pose.x, pose.y}),
-                      vector({pose.x + reach * ray.x, pose.y + reach * ray.y}));
+    standing_.RayCast(&nearest, vector(at), vector(along(at, {ray.x, ray.y}, reach)));
     const double echo = static_cast<double>(nearest.fraction) * reach - radius_;
     *echoes++ = nearest.hit ? std::clamp(echo, 0.0, range_) : range_;
   }

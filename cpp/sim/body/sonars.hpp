@@ -10,7 +10,8 @@
 
 namespace devlearn {
 
-/// The sonars of a robot: rays in a Box2D world of all that stands still.
+/// The sonars of a robot: rays in a Box2D world of all that stands still, seen from the arena's
+/// origin, so that floats lose nothing to where the arena lies.
 class Sonars {
  public:
   Sonars(const World& world, const RobotDef& robot);
@@ -21,6 +22,7 @@ class Sonars {
  private:
   b2World standing_;
   std::vector<double> angles_;
+  Point origin_;
   double radius_, range_;
 };
 

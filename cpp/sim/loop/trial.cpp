@@ -48,7 +48,7 @@ SituationGrid grid_over(const World& world, const TrialConfig& config) {
   const auto covered = [&](double side) { return std::max(side, cells(side) * config.cell_size); };
   const double width = world.def().width, height = world.def().height;
   return SituationGrid(covered(width), covered(height), cells(width), cells(height),
-                       config.heading_bins);
+                       config.heading_bins, world.def().origin);
 }
 
 // What the record is told.

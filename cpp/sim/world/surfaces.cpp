@@ -48,11 +48,12 @@ bool reaches(const Circle& circle, Point p, double reach) {
 
 }  // namespace
 
-Surfaces::Surfaces(double width, double height, std::vector<std::vector<Point>> outlines,
+Surfaces::Surfaces(const Box& arena, std::vector<std::vector<Point>> outlines,
                    std::vector<Circle> circles)
-    : width_(width), height_(height), circles_(std::move(circles)) {
+    : arena_(arena), circles_(std::move(circles)) {
   // Clockwise, since walls are solid on the outside.
-  add_edges({{0.0, 0.0}, {0.0, height}, {width, height}, {width, 0.0}});
+  const auto [low, high] = arena;
+  add_edges({low, {low.x, high.y}, high, {high.x, low.y}});
   for (std::vector<Point>& corners : outlines) {
     add_edges(corners);
     Box bound{corners[0], corners[0]};
@@ -67,7 +68,8 @@ Surfaces::Surfaces(double width, double height, std::vector<std::vector<Point>> 
   }
   for (const Outline& outline : outlines_) bounds.push_back(outline.bound);
   near_ = BoxTree(bounds);
-  root_ = {{-kBorder, -kBorder}, std::max(width, height) + 2.0 * kBorder};
+  root_ = {{low.x - kBorder, low.y - kBorder},
+           std::max(high.x - low.x, high.y - low.y) + 2.0 * kBorder};
   finest_per_metre_ = static_cast<double>(kFinest) / root_.side;
   build();
 }

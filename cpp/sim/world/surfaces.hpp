@@ -20,16 +20,16 @@ namespace devlearn {
 /// the others changes no result, since kMargin exceeds what rounding can do to the comparison.
 class Surfaces {
  public:
-  /// Of an arena with walls around (0, 0) to (width, height), outlines counter-clockwise.
-  Surfaces(double width, double height, std::vector<std::vector<Point>> outlines,
-           std::vector<Circle> circles);
+  /// Of an arena with walls all around, outlines counter-clockwise.
+  Surfaces(const Box& arena, std::vector<std::vector<Point>> outlines, std::vector<Circle> circles);
 
   /// Least distance from p to an obstacle, 0 inside one, infinite where there is none.
   double distance(Point p) const noexcept;
 
   /// Least distance from p to the walls, 0 outside.
   double wall_distance(Point p) const noexcept {
-    return std::max(0.0, std::min({p.x, width_ - p.x, p.y, height_ - p.y}));
+    const auto [low, high] = arena_;
+    return std::max(0.0, std::min({p.x - low.x, high.x - p.x, p.y - low.y, high.y - p.y}));
   }
 
   /// Whether obstacles and walls keep more than `room` > 0 from the segment p-q.
@@ -92,7 +92,7 @@ class Surfaces {
   const Cell& leaf(Point p) const noexcept;
   bool inside_outline(const Cell& leaf, Point p) const noexcept;
 
-  double width_, height_;
+  Box arena_;
   std::vector<Edge> edges_;
   std::vector<Circle> circles_;
   std::vector<Outline> outlines_;

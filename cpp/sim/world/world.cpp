@@ -15,7 +15,8 @@
 namespace devlearn {
 namespace {
 
-constexpr double kLeastSide = 0.5, kGreatestSide = 1000.0;   // of the arena [m]
+constexpr double kLeastSide = 0.5, kGreatestSide = 1000.0;  // of the arena [m]
+constexpr double kFurthest = 1e5;  // of its origin from 0 [m]; beyond, rounding would show
 constexpr double kLeastSize = 0.01, kGreatestSize = 1000.0;  // of an obstacle [m]
 constexpr double kLeastSpacing = 0.01;                       // of corners [m]; Box2D bears no less
 constexpr double kLeastArea = 1e-4;                          // of a polygon [m^2]
@@ -40,14 +41,15 @@ void require_text(const std::string& quantity, const std::string& text) {
 
 // Obstacles may stick out of the arena, but not lie anywhere.
 void require_near(const std::string& quantity, Point p, const WorldDef& def) {
-  const auto require = [&](int axis, double value, double side) {
-    if (value >= -side && value <= 2.0 * side) return;
+  const auto require = [&](int axis, double value, double from, double side) {
+    const double least = from - side, greatest = from + 2.0 * side;
+    if (value >= least && value <= greatest) return;
     throw InvalidValue(indexed(quantity, static_cast<std::size_t>(axis)), to_text(value),
-                       "in [" + to_text(-side) + ", " + to_text(2.0 * side) +
+                       "in [" + to_text(least) + ", " + to_text(greatest) +
                            "] m, the arena enlarged by its own size on each side");
   };
-  require(0, p.x, def.width);
-  require(1, p.y, def.height);
+  require(0, p.x, def.origin.x, def.width);
+  require(1, p.y, def.origin.y, def.height);
 }
 
 // Twice the area enclosed, positive for corners in counter-clockwise order.
@@ -147,8 +149,9 @@ class ObstacleCheck {
 };
 
 void require_place(const World& world, const std::string& quantity, Point p) {
-  require_in(quantity + ".x", p.x, 0.0, world.def().width, "m");
-  require_in(quantity + ".y", p.y, 0.0, world.def().height, "m");
+  const Point low = world.def().origin, high = world.def().far_corner();
+  require_in(quantity + ".x", p.x, low.x, high.x, "m");
+  require_in(quantity + ".y", p.y, low.y, high.y, "m");
   if (!(world.clearance(p) > 0.0)) {
     throw InvalidValue(quantity, text_of(p) + ", in an obstacle", "a point outside every obstacle");
   }
@@ -167,6 +170,8 @@ World::World(WorldDef def) : def_(std::make_shared<WorldDef>(std::move(def))) {
   require_text("description", def_->description);
   require_in("arena.width", def_->width, kLeastSide, kGreatestSide, "m");
   require_in("arena.height", def_->height, kLeastSide, kGreatestSide, "m");
+  require_in("arena.origin[0]", def_->origin.x, -kFurthest, kFurthest, "m");
+  require_in("arena.origin[1]", def_->origin.y, -kFurthest, kFurthest, "m");
   ObstacleCheck(*def_).check_all();
 
   std::vector<std::vector<Point>> outlines;
@@ -180,7 +185,7 @@ World::World(WorldDef def) : def_(std::make_shared<WorldDef>(std::move(def))) {
       outlines.push_back(counter_clockwise(std::get<Polygon>(obstacle).corners));
     }
   }
-  surfaces_ = std::make_shared<Surfaces>(def_->width, def_->height, std::move(outlines),
+  surfaces_ = std::make_shared<Surfaces>(Box{def_->origin, def_->far_corner()}, std::move(outlines),
                                          std::move(circles));
 
   require_start(*this);

@@ -67,9 +67,10 @@ WorldDef read_world(const json::Node& world) {
   if (world.has("description")) def.description = world["description"].text();
 
   const json::Node arena = world["arena"];
-  arena.require_known({"width", "height"});
+  arena.require_known({"width", "height", "origin"});
   def.width = arena["width"].number();
   def.height = arena["height"].number();
+  if (arena.has("origin")) def.origin = point(arena["origin"]);
 
   const json::Node start = world["start"];
   start.require_known({"x", "y", "heading"});
@@ -136,8 +137,11 @@ std::string World::to_json() const {
   };
   if (!def_->name.empty()) add("name", json::quoted(def_->name));
   if (!def_->description.empty()) add("description", json::quoted(def_->description));
+  // Left out where it says nothing, so that worlds keep the hashes they had before there was one.
+  const std::string origin = json_point(def_->origin);
   add("arena", R"({"width": )" + json_number(def_->width) + R"(, "height": )" +
-                   json_number(def_->height) + "}");
+                   json_number(def_->height) +
+                   (origin == json_point({}) ? "" : R"(, "origin": )" + origin) + "}");
   add("start", R"({"x": )" + json_number(def_->start.x) + R"(, "y": )" +
                    json_number(def_->start.y) + R"(, "heading": )" +
                    json_number(def_->start.heading) + "}");

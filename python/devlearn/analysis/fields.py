@@ -58,8 +58,10 @@ def sef_field(
     evaluate = evaluation if evaluation is not None else config.evaluation
     walls = config.walls_count if walls_count is None else walls_count
     step = max(world.width, world.height) / (points - 1)
-    x = np.linspace(0, world.width, max(2, round(world.width / step) + 1))
-    y = np.linspace(0, world.height, max(2, round(world.height / step) + 1))
+    x, y = (
+        np.linspace(start, start + side, max(2, round(side / step) + 1))
+        for start, side in zip(world.origin, (world.width, world.height))
+    )
     xs, ys = np.meshgrid(x, y)
     goal = np.hypot(xs - world.target[0], ys - world.target[1])
     sef = np.asarray(evaluate(goal, world.clearance(xs, ys, walls_count=walls)))
@@ -110,6 +112,7 @@ def preference_field(
             columns,
             rows,
             config.heading_bins,
+            place.origin,
         )
     angles = config.robot.steering_angles
     cells: dict[tuple[float, float], list[float]] = {}

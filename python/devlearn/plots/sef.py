@@ -49,7 +49,12 @@ def plot_sef(
     dx, dy = energy.x[1] - energy.x[0], energy.y[1] - energy.y[0]
     image = ax.imshow(
         energy.sef,
-        extent=(-dx / 2, place.width + dx / 2, -dy / 2, place.height + dy / 2),
+        extent=(
+            energy.x[0] - dx / 2,
+            energy.x[-1] + dx / 2,
+            energy.y[0] - dy / 2,
+            energy.y[-1] + dy / 2,
+        ),
         origin="lower",
         cmap="cividis",
         vmin=energy.floor,
@@ -113,8 +118,8 @@ def plot_sef_surface(
     solid.set_xlabel("x [m]")
     solid.set_ylabel("y [m]")
     solid.set_zlabel(f"SEF (cut off at {energy.floor:.3g})" if clipped else "SEF")
-    solid.set_xlim(0, place.width)
-    solid.set_ylim(0, place.height)
+    solid.set_xlim(energy.x[0], energy.x[-1])
+    solid.set_ylim(energy.y[0], energy.y[-1])
     for axis in (solid.xaxis, solid.yaxis):
         axis.set_major_locator(MaxNLocator(nbins=6, integer=True))
     solid.set_box_aspect(

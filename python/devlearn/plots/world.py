@@ -55,7 +55,7 @@ def draw_obstacles(ax: Axes, world: World, **how: Any) -> None:
         ax.add_patch(patch)
         # What lies beyond the walls, where a world lets an obstacle reach into them, is not shown.
         patch.set_clip_path(
-            patches.Rectangle((0, 0), world.width, world.height, transform=ax.transData)
+            patches.Rectangle(world.origin, world.width, world.height, transform=ax.transData)
         )
 
 
@@ -70,13 +70,20 @@ def _corners(rectangle: Rectangle) -> npt.NDArray[np.float64]:
 def draw_arena(ax: Axes, world: World) -> None:
     """The walls, and axes in metres that show one metre the same both ways."""
     wall = patches.Rectangle(
-        (0, 0), world.width, world.height, fill=False, edgecolor=INK, linewidth=1.6, zorder=4.0
+        world.origin,
+        world.width,
+        world.height,
+        fill=False,
+        edgecolor=INK,
+        linewidth=1.6,
+        zorder=4.0,
     )
     wall.set_gid("walls")
     ax.add_patch(wall)
     margin = 0.02 * max(world.width, world.height)
-    ax.set_xlim(-margin, world.width + margin)
-    ax.set_ylim(-margin, world.height + margin)
+    x, y = world.origin
+    ax.set_xlim(x - margin, x + world.width + margin)
+    ax.set_ylim(y - margin, y + world.height + margin)
     ax.set_aspect("equal")
     ax.set_xlabel("x [m]")
     ax.set_ylabel("y [m]")

@@ -107,6 +107,29 @@ TEST_CASE("the centre of a situation is the middle of its cell and bin") {
   CHECK(centre.heading == 210.0);
 }
 
+TEST_CASE("a grid elsewhere gives the situations of the same grid at (0, 0)") {
+  Random random(4, "elsewhere");
+  for (const Point origin : {Point{256.0, -128.0}, {-1e7, 1e7}, {0.1, -0.3}}) {
+    const SituationGrid here(5.0, 4.0, 20, 16, 12), there(5.0, 4.0, 20, 16, 12, origin);
+    CHECK(there.origin() == origin);
+    CHECK(there.count() == here.count());
+    for (SituationId id = 0; id < here.count(); ++id) {
+      const Pose centre = here.centre(id), other = there.centre(id);
+      REQUIRE(other == Pose{origin.x + centre.x, origin.y + centre.y, centre.heading});
+      REQUIRE(there.situation(other.x, other.y, other.heading) == id);
+    }
+    CHECK(there.situation(origin.x, origin.y, 0.0) == 0);
+    CHECK(there.situation(origin.x + 5.0, origin.y + 4.0, 330.0) == there.count() - 1);
+  }
+  // To the border, where the shift takes no bit.
+  const SituationGrid here, there(5.0, 5.0, 20, 20, 12, {256.0, -128.0});
+  for (int i = 0; i < 10000; ++i) {
+    const double x = 5.0 * std::floor(random.uniform() * 0x1p20) * 0x1p-20;
+    const double y = 0.25 * random.index(21), heading = 360.0 * random.uniform();
+    REQUIRE(there.situation(x + 256.0, y - 128.0, heading) == here.situation(x, y, heading));
+  }
+}
+
 TEST_CASE("a pose outside the arena has no situation") {
   const SituationGrid grid;
   check_refused([&] { grid.situation(-5e-324, 1.0, 0.0); }, "x", "-5e-324");
@@ -140,6 +163,15 @@ TEST_CASE("a grid refuses sides and numbers of cells out of range") {
   for (const int bad : {0, -1, 3601}) {
     check_refused([=] { SituationGrid(5, 5, 1, 1, bad); }, "SituationGrid.headings",
                   std::to_string(bad));
+  }
+}
+
+TEST_CASE("a grid refuses an origin further than 10 000 km") {
+  for (const double bad : {1.1e7, -1.1e7, kInfinity, kNaN}) {
+    check_refused([=] { SituationGrid(5, 5, 1, 1, 1, {bad, 0.0}); }, "SituationGrid.origin.x",
+                  to_text(bad));
+    check_refused([=] { SituationGrid(5, 5, 1, 1, 1, {0.0, bad}); }, "SituationGrid.origin.y",
+                  to_text(bad));
   }
 }
 

@@ -208,6 +208,21 @@ def test_sonars_can_be_left_out(ax):
     assert not any(gid.startswith("sonar") for gid in gids(ax))
 
 
+def test_a_world_elsewhere_is_drawn_where_it_lies(ax):
+    world = devlearn.World(origin=(256, -128), start=(256.5, -127.5, 0), target=(260.5, -123.5))
+    plots.plot_sef(world, ax=ax, points=51)
+    assert by_gid(ax, "walls").get_bbox().extents.tolist() == [256, -128, 261, -123]
+    left, right, bottom, top = by_gid(ax, "sef").get_extent()
+    assert (left, right, bottom, top) == pytest.approx((255.95, 261.05, -128.05, -122.95))
+    assert ax.get_xlim() == pytest.approx((255.9, 261.1))
+    assert ax.get_ylim() == pytest.approx((-128.1, -122.9))
+    trial = devlearn.Trial(world, seed=1)
+    trial.free_learning(500)
+    field = plots.preference_field(world, trial.learner)
+    assert (field.x > 256).all()
+    assert (field.y < -123).all()
+
+
 @pytest.mark.parametrize("name", devlearn.worlds())
 def test_every_shipped_world_can_be_drawn(name):
     ax = plots.plot_world(devlearn.World.load(name))

@@ -9,6 +9,14 @@ namespace devlearn {
 /// other meaning.
 using SituationId = std::int64_t;
 
+/// A point of the plane [m].
+struct Point {
+  double x = 0.0;  ///< [m]
+  double y = 0.0;  ///< [m]
+};
+
+inline bool operator==(const Point& a, const Point& b) noexcept { return a.x == b.x && a.y == b.y; }
+
 /// The robot's place and heading.
 struct Pose {
   double x = 0.0;        ///< of the robot's centre [m]
@@ -35,12 +43,13 @@ inline bool operator!=(const Pose& a, const Pose& b) noexcept { return !(a == b)
 class SituationGrid {
  public:
   /// width, height: the arena's sides, in (0, 10 000] m. columns, rows: cells along x and y, in
-  /// 1 ... 100 000. headings: heading bins, in 1 ... 3600. Throws InvalidValue.
+  /// 1 ... 100 000. headings: heading bins, in 1 ... 3600. origin: the arena's corner of least x
+  /// and y, each within 10 000 km of 0. Throws InvalidValue.
   explicit SituationGrid(double width = 5.0, double height = 5.0, int columns = 20, int rows = 20,
-                         int headings = 12);
+                         int headings = 12, Point origin = {});
 
-  /// The situation of a pose: x in [0, width] m, y in [0, height] m, any finite heading
-  /// [degrees]. Throws InvalidValue.
+  /// The situation of a pose: x in [origin.x, origin.x + width] m, y in [origin.y, origin.y +
+  /// height] m, any finite heading [degrees]. Throws InvalidValue.
   SituationId situation(double x, double y, double heading) const;
 
   /// The same of many: pose i is poses[stride i] (x), [stride i + 1] (y), [stride i + 2] (heading).
@@ -60,6 +69,7 @@ class SituationGrid {
   int columns() const noexcept { return columns_; }    ///< cells along x
   int rows() const noexcept { return rows_; }          ///< cells along y
   int headings() const noexcept { return headings_; }  ///< heading bins
+  Point origin() const noexcept { return origin_; }    ///< the corner of least x and y [m]
 
  private:
   void require_inside(double x, double y, double heading) const;
@@ -67,6 +77,7 @@ class SituationGrid {
 
   double width_, height_;
   int columns_, rows_, headings_;
+  Point origin_;
   double cell_width_, cell_height_, heading_step_;
 };
 

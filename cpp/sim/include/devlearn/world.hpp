@@ -10,14 +10,6 @@
 
 namespace devlearn {
 
-/// A point of the plane [m].
-struct Point {
-  double x = 0.0;  ///< [m]
-  double y = 0.0;  ///< [m]
-};
-
-inline bool operator==(const Point& a, const Point& b) noexcept { return a.x == b.x && a.y == b.y; }
-
 /// A round obstacle.
 struct Circle {
   Point center;         ///< [m]
@@ -46,9 +38,13 @@ struct WorldDef {
   std::string description;          ///< for people
   double width = 5.0;               ///< the arena's side along x, in [0.5, 1000] m
   double height = 5.0;              ///< the arena's side along y, in [0.5, 1000] m
+  Point origin;                     ///< the arena's corner of least x and y, each within 100 km of 0
   Pose start{0.5, 0.5, 0.0};        ///< inside the arena, outside every obstacle
   Point target{4.5, 4.5};           ///< inside the arena, outside every obstacle
   std::vector<Obstacle> obstacles;  ///< they may overlap each other and the walls
+
+  /// The arena's corner of greatest x and y.
+  Point far_corner() const noexcept { return {origin.x + width, origin.y + height}; }
 };
 
 class Surfaces;

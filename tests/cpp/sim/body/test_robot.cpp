@@ -44,7 +44,8 @@ double ray_distance(const WorldDef& def, Point p, double c, double s) {
       side(corners[i], corners[(i + 1) % corners.size()]);
     }
   };
-  outline({{0, 0}, {def.width, 0}, {def.width, def.height}, {0, def.height}});
+  const Point low = def.origin, high = def.far_corner();
+  outline({low, {high.x, low.y}, high, {low.x, high.y}});
   for (const Obstacle& obstacle : def.obstacles) {
     if (const auto* circle = std::get_if<Circle>(&obstacle)) {
       const double dx = circle->center.x - p.x, dy = circle->center.y - p.y;

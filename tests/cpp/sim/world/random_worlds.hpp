@@ -64,12 +64,31 @@ inline devlearn::World random_world(devlearn::Random& random, int obstacles, dou
   }
 }
 
+/// The same world elsewhere.
+inline devlearn::WorldDef shifted(devlearn::WorldDef def, devlearn::Point by) {
+  const auto shift = [by](devlearn::Point& p) { p = {p.x + by.x, p.y + by.y}; };
+  shift(def.origin);
+  shift(def.target);
+  def.start.x += by.x;
+  def.start.y += by.y;
+  for (devlearn::Obstacle& obstacle : def.obstacles) {
+    if (auto* circle = std::get_if<devlearn::Circle>(&obstacle)) {
+      shift(circle->center);
+    } else if (auto* rectangle = std::get_if<devlearn::Rectangle>(&obstacle)) {
+      shift(rectangle->center);
+    } else {
+      for (devlearn::Point& p : std::get<devlearn::Polygon>(obstacle).corners) shift(p);
+    }
+  }
+  return def;
+}
+
 /// A pose with at least so much room around its centre, if one is soon found.
 inline std::optional<devlearn::Pose> free_pose(devlearn::Random& random,
                                                const devlearn::World& world, double room) {
   for (int i = 0; i < 1000; ++i) {
-    const devlearn::Point p{world.def().width * random.uniform(),
-                            world.def().height * random.uniform()};
+    const devlearn::Point p{world.def().origin.x + world.def().width * random.uniform(),
+                            world.def().origin.y + world.def().height * random.uniform()};
     if (world.clearance(p, true) >= room) return devlearn::Pose{p.x, p.y, 30.0 * random.index(12)};
   }
   return std::nullopt;

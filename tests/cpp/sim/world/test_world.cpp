@@ -16,6 +16,8 @@
 #include "devlearn/error.hpp"
 #include "devlearn/random.hpp"
 #include "devlearn/robot.hpp"
+#include "devlearn/shortest_path.hpp"
+#include "devlearn/trial.hpp"
 #include "devlearn/world.hpp"
 #include "sim/body/plain.hpp"
 #include "sim/world/random_worlds.hpp"
@@ -31,8 +33,8 @@ const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // All the numbers of a world, in order.
 std::vector<double> numbers(const WorldDef& def) {
-  std::vector<double> all{def.width,         def.height,   def.start.x, def.start.y,
-                          def.start.heading, def.target.x, def.target.y};
+  std::vector<double> all{def.width,   def.height,        def.origin.x, def.origin.y, def.start.x,
+                          def.start.y, def.start.heading, def.target.x, def.target.y};
   for (const Obstacle& obstacle : def.obstacles) {
     all.push_back(static_cast<double>(obstacle.index()));
     if (const auto* circle = std::get_if<Circle>(&obstacle)) {
@@ -229,6 +231,22 @@ TEST_CASE("A world written as JSON reads back equal to the bit") {
   CHECK(same(World::parse(world.to_json()).def(), def));
   def.start.heading = -std::numeric_limits<double>::max();
   CHECK(same(World::parse(World(def).to_json()).def(), def));
+  for (const Point origin : {Point{-0.1, -1.0 / 3.0}, {0.0, -0.0}, {-0.0, 0.0}, {0.0, -5e-324}}) {
+    def.origin = origin;
+    CHECK(same(World::parse(World(def).to_json()).def(), def));
+  }
+}
+
+TEST_CASE("An origin of (0, 0) is not written, so that a world keeps its text and its hash") {
+  const std::string text = World().to_json();
+  CHECK(text.find("origin") == std::string::npos);
+  CHECK(
+      World(shifted({}, {256.0, -128.0})).to_json() ==
+      replaced(replaced(replaced(text, "\"height\": 5}", "\"height\": 5, \"origin\": [256, -128]}"),
+                        R"("x": 0.5, "y": 0.5)", R"("x": 256.5, "y": -127.5)"),
+               R"("x": 4.5, "y": 4.5)", R"("x": 260.5, "y": -123.5)"));
+  const std::string written = replaced(kText, R"("height": 4)", R"("height": 4, "origin": [0, 0])");
+  CHECK(World::parse(written).to_json() == World::parse(kText).to_json());
 }
 
 TEST_CASE("What may be left out of a file may be left out") {
@@ -353,6 +371,11 @@ TEST_CASE("A file that breaks the format is refused by the path of its field") {
   edited(R"("width": 5)", R"("width": "5")", "arena.width");
   edited(R"("width": 5)", R"("width": null)", "arena.width");
   edited(R"("width": 5)", R"("width": true)", "arena.width");
+  const std::string height = R"("height": 4)";
+  edited(height, height + R"(, "origin": 5)", "arena.origin");
+  edited(height, height + R"(, "origin": [0])", "arena.origin");
+  edited(height, height + R"(, "origin": [0, "0"])", "arena.origin[1]");
+  edited(height, height + R"(, "origin": [1e6, 0])", "arena.origin[0]");
   edited("[1.5, 1.5]", "1.5", "obstacles[0].center");
   edited("[1.5, 1.5]", "[1.5]", "obstacles[0].center");
   edited("[1.5, 1.5]", "[1.5, 1.5, 1.5]", "obstacles[0].center");
@@ -518,6 +541,10 @@ TEST_CASE("A definition out of range is refused by the name of its field") {
     def = {};
     def.target.y = bad;
     refused(def, "target.y");
+  }
+  for (const double bad : {-100000.1, 100000.1, kNan, kInfinite}) {
+    refused(shifted({}, {bad, 0.0}), "arena.origin[0]");
+    refused(shifted({}, {0.0, bad}), "arena.origin[1]");
   }
   for (const double bad : {kNan, kInfinite}) {
     WorldDef def;
@@ -732,4 +759,148 @@ TEST_CASE("Edges lead around what is solid on their left, walls first") {
     CHECK(edge.after == next.b);
     CHECK((edge.a.x == 0.0 || edge.a.x == 5.0));
   }
+}
+
+// --- elsewhere ---------------------------------------------------------------------------------
+
+namespace {
+
+// Rounded to what a double still holds a hundred kilometres away.
+double on_lattice(double x) { return std::round(x * 0x1p20) * 0x1p-20; }
+
+Pose on_lattice(const Pose& pose) { return {on_lattice(pose.x), on_lattice(pose.y), pose.heading}; }
+
+WorldDef on_lattice(WorldDef def) {
+  const auto round = [](Point& p) { p = {on_lattice(p.x), on_lattice(p.y)}; };
+  for (Obstacle& obstacle : def.obstacles) {
+    if (auto* circle = std::get_if<Circle>(&obstacle)) {
+      round(circle->center);
+    } else if (auto* rectangle = std::get_if<Rectangle>(&obstacle)) {
+      round(rectangle->center);
+    } else {
+      for (Point& p : std::get<Polygon>(obstacle).corners) round(p);
+    }
+  }
+  def.start = on_lattice(def.start);
+  round(def.target);
+  return def;
+}
+
+// The furthest that arenas of this side can lie, and a shift that takes no bit.
+const Point kShifts[] = {{256.0, -128.0}, {-99840.0, 99968.0}};
+
+Pose shifted(const Pose& pose, Point by) { return {pose.x + by.x, pose.y + by.y, pose.heading}; }
+
+// How far apart two poses are, the second in a world shifted by that much.
+double gap(const Pose& here, const Pose& there, Point by) {
+  return std::max(std::abs(here.x - (there.x - by.x)), std::abs(here.y - (there.y - by.y)));
+}
+
+}  // namespace
+
+TEST_CASE("Wherever the arena lies, distances, steps and echoes are what they are at (0, 0)") {
+  Random random(1, "elsewhere");
+  double worst_clearance = 0.0, worst_free = 0.0, worst_contact = 0.0, worst_echo = 0.0;
+  long contacts = 0, differing = 0;
+  for (int n = 0; n < 60; ++n) {
+    const WorldDef def = on_lattice(random_world(random, 8, 5.0).def());
+    for (const Point by : kShifts) {
+      const World here(def), there(shifted(def, by));
+      const Robot robot(here, {}), other(there, {});
+      for (int i = 0; i < 40; ++i) {
+        const Point p{on_lattice(between(random, -1.0, 6.0)),
+                      on_lattice(between(random, -1.0, 6.0))};
+        const Point q{p.x + by.x, p.y + by.y};
+        const auto compare = [&](double a, double b) {
+          worst_clearance = std::max(worst_clearance, std::abs(a - b));
+        };
+        compare(here.clearance(p), there.clearance(q));
+        compare(here.wall_distance(p), there.wall_distance(q));
+        differing += here.surfaces().keep_clear_of({2.0, 2.0}, p, 0.1) !=
+                     there.surfaces().keep_clear_of({2.0 + by.x, 2.0 + by.y}, q, 0.1);
+      }
+      auto pose = free_pose(random, here, 0.15);
+      for (int i = 0; pose && i < 60; ++i) {
+        *pose = on_lattice(*pose);
+        if (here.clearance({pose->x, pose->y}, true) < 0.1) break;
+        const std::vector<double> heard = robot.sonar(*pose);
+        const std::vector<double> also = other.sonar(shifted(*pose, by));
+        for (std::size_t k = 0; k < heard.size(); ++k) {
+          worst_echo = std::max(worst_echo, std::abs(heard[k] - also[k]));
+        }
+        const int motion = i % 7 == 0 ? static_cast<int>(random.index(5)) : 2;
+        const auto a = robot.step(*pose, motion), b = other.step(shifted(*pose, by), motion);
+        differing += a.collided != b.collided;
+        contacts += a.collided;
+        double& worst = a.collided ? worst_contact : worst_free;
+        worst = std::max(worst, gap(a.pose, b.pose, by));
+        pose = a.pose;
+      }
+    }
+  }
+  MESSAGE("off by at most " << worst_clearance << " m in clearance, " << worst_free
+                            << " m in free steps, " << worst_contact << " m in " << contacts
+                            << " contacts, " << worst_echo << " m in echoes");
+  CHECK(worst_clearance < 1e-10);
+  CHECK(worst_free < 1e-10);
+  CHECK(worst_contact < 1e-10);
+  CHECK(worst_echo < 1e-6);
+  CHECK(contacts > 500);
+  CHECK(differing == 0);
+}
+
+TEST_CASE("Wherever the arena lies, the shortest path and a trial's situations are the same") {
+  const World paper = World::load(DEVLEARN_SOURCE_DIR "/python/devlearn/worlds/paper.json");
+  const WorldDef def = on_lattice(paper.def());
+  const World here(def);
+  const std::vector<Pose> way = shortest_path(Robot(here, {}), def.start);
+  Trial trial(here, {}, 3);
+  Record record;
+  trial.free_learning(record, 4000);
+  for (const Point by : kShifts) {
+    const World there(shifted(def, by));
+    const std::vector<Pose> other = shortest_path(Robot(there, {}), there.def().start);
+    REQUIRE(other.size() == way.size());
+    for (std::size_t i = 0; i < way.size(); ++i) REQUIRE(gap(way[i], other[i], by) < 1e-8);
+
+    Trial elsewhere(there, {}, 3);
+    Record same;
+    elsewhere.free_learning(same, 4000);
+    CHECK(same.situation == record.situation);
+    CHECK(same.motion == record.motion);
+    CHECK(same.collided == record.collided);
+    CHECK(elsewhere.grid().origin() == by);
+  }
+}
+
+TEST_CASE("What lies outside an arena that lies elsewhere is refused with the range it has") {
+  const WorldDef def = shifted(WorldDef(), {256.0, -128.0});
+  const auto refusal = [](const auto& act) {
+    try {
+      act();
+    } catch (const InvalidValue& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  const auto says = [&](const WorldDef& bad, const std::string& range) {
+    CAPTURE(range);
+    CHECK(refusal([&] { World{bad}; }).find(range) != std::string::npos);
+  };
+  WorldDef bad = def;
+  bad.start.x = 0.5;
+  says(bad, "in [256, 261] m");
+  bad = def;
+  bad.target.y = 4.5;
+  says(bad, "in [-128, -123] m");
+  bad = def;
+  bad.obstacles = {Circle{{250.9, -126.0}, 0.1}};
+  says(bad, "in [251, 266] m");
+  const Robot robot(World(def), {});
+  CHECK(refusal([&] {
+          robot.require_place({0.5, -127.5, 0.0});
+        }).find("in [256, 261] m") != std::string::npos);
+  const SituationGrid grid(5.0, 5.0, 20, 20, 12, def.origin);
+  CHECK(refusal([&] { grid.situation(257.0, 0.0, 0.0); }).find("in [-128, -123] m") !=
+        std::string::npos);
 }
