@@ -33,6 +33,18 @@ def draw_worlds():
         save(plots.plot_world(devlearn.World.load(name)).figure, f"world_{name}.png", 110)
 
 
+def draw_kinds():
+    """One world of each kind that is drawn by chance, at three difficulties."""
+    for kind in ("similar", "clutter", "corridors", "rooms", "traps"):
+        figure, axes = plt.subplots(1, 3, figsize=(6.0, 2.2), layout="constrained")
+        for ax, difficulty in zip(axes, (0.0, 0.5, 1.0)):
+            world = devlearn.World.random(kind, 1, difficulty=difficulty)
+            plots.plot_world(world, ax=ax, sonar=False, legend=False)
+            ax.set_title(f"difficulty {difficulty:g}")
+            ax.set(xlabel="", ylabel="", xticks=[], yticks=[])
+        save(figure, f"kind_{kind}.png", 80)
+
+
 def draw_readme():
     """From wandering to a path of its own: the head of the README."""
     trial = devlearn.Trial(devlearn.World.load("paper"), seed=0)
@@ -68,4 +80,5 @@ if __name__ == "__main__":
     matplotlib.use("Agg")
     with matplotlib.rc_context({**plots.STYLE, "axes.titlesize": 9}):
         draw_worlds()
+        draw_kinds()
         draw_readme()

@@ -113,6 +113,17 @@ void bind_world(py::module_& m) {
           "The world in a JSON file, or one that ships by its name (see devlearn.worlds()). Raises "
           "FileError, naming file and field.")
       .def_static(
+          "random",
+          [](const std::string& kind, Whole<SeedTag> seed, double difficulty) {
+            const py::gil_scoped_release no_gil;
+            return World::random(kind, seed.value, difficulty);
+          },
+          py::arg("kind"), py::arg("seed"), py::kw_only(), py::arg("difficulty") = 0.5,
+          "A world of 5 m x 5 m drawn by chance, the same on every machine, in which the robot of\n"
+          "the paper has a way from start to target. kind: 'similar' (to Fig. 2), 'clutter',\n"
+          "'corridors', 'rooms' or 'traps'. difficulty in [0, 1]: what it means for each kind is\n"
+          "in docs/worlds.md. Raises InvalidValue.")
+      .def_static(
           "from_json", [](const std::string& text) { return World::parse(text); }, py::arg("text"),
           "The world in JSON text. Raises FileError.")
       .def("to_json", &World::to_json, "JSON text that from_json reads back as an equal world.")

@@ -745,6 +745,19 @@ class World:
         """
         The world in a JSON file, or one that ships by its name (see devlearn.worlds()). Raises FileError, naming file and field.
         """
+    @staticmethod
+    def random(
+        kind: str,
+        seed: typing.SupportsIndex,
+        *,
+        difficulty: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+    ) -> World:
+        """
+        A world of 5 m x 5 m drawn by chance, the same on every machine, in which the robot of
+        the paper has a way from start to target. kind: 'similar' (to Fig. 2), 'clutter',
+        'corridors', 'rooms' or 'traps'. difficulty in [0, 1]: what it means for each kind is
+        in docs/worlds.md. Raises InvalidValue.
+        """
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __init__(

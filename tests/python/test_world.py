@@ -2,6 +2,7 @@
 
 import copy
 import json
+import math
 import os
 import pathlib
 import pickle
@@ -203,6 +204,110 @@ def test_text_that_is_no_world_is_refused(text):
     with pytest.raises(FileError) as caught:
         World.from_json(text)
     assert caught.value.file == "JSON text"
+
+
+# --- drawn by chance -----------------------------------------------------------------------------
+
+KINDS = ("similar", "clutter", "corridors", "rooms", "traps")
+
+# SHA-256 of worlds of seeds 1 to 5. The claims on similar worlds were judged on these.
+SIMILAR = (
+    "81ba824c243df325197ed3ac3c5e99418676fa455ed652fe82ee6cf676073853",
+    "c21dfb0d299372bff50d546f59fec5233a3c59f451f19ec6004451203fc479c1",
+    "50fa45554ea022c76cfcf803c622927f7f26f673079e07cd060cf6184daef512",
+    "942ce5384fd34ec6de8a01288d69c229521063b30d1b8ecbe6d80c1c38b9dcd1",
+    "89ce015e2c8d5b991e3431d48e4ab7a371f871bd6069a68ee3506f202a514823",
+)
+
+# Their hashes' beginnings, at seed 1 and difficulties 0, 0.5 and 1.
+RANDOM = {
+    "similar": ["4f474b7a9f93fc19", "81ba824c243df325", "cfe1d0fb2d415edf"],
+    "clutter": ["7f548bb0b98293e4", "7a85d6068ba70eb2", "e0a90d6612b0dbf5"],
+    "corridors": ["ec1b05c7b17237a0", "34ea0616f450b59b", "3e0d0ced84d100cc"],
+    "rooms": ["cd7199f0fe4bcdc6", "707412ef7103a701", "3211e1dba9d90c6e"],
+    "traps": ["71bd627657977585", "fd419eb3eefe110c", "69edc931fdfe340b"],
+}
+
+
+@pytest.mark.parametrize(("seed", "hash_"), list(enumerate(SIMILAR, 1)))
+def test_similar_worlds_are_those_the_claims_were_judged_on(seed, hash_):
+    assert World.random("similar", seed).hash == hash_
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_random_world_is_the_same_on_every_machine(kind):
+    hashes = [World.random(kind, 1, difficulty=d).hash[:16] for d in (0, 0.5, 1)]
+    assert hashes == RANDOM[kind]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_random_world_is_a_world_like_any(kind):
+    world = World.random(kind, 2**64 - 1, difficulty=0.25)
+    assert World.from_json(world.to_json()) == world
+    assert world.name == f"{kind} {2**64 - 1}, difficulty 0.25"
+    VALIDATOR.validate(json.loads(world.to_json()))
+    assert len(devlearn.Trial(world, seed=1).free_learning(50)) == 50
+
+
+@pytest.mark.parametrize(
+    ("quantity", "says", "arguments", "difficulty"),
+    [
+        ("kind", "similar, clutter, corridors, rooms, traps", ("maze", 1), 0.5),
+        ("difficulty", "[0, 1]", ("rooms", 1), 1.5),
+        ("difficulty", "[0, 1]", ("rooms", 1), float("nan")),
+        ("seed", "[0, 2^64 - 1]", ("rooms", -1), 0.5),
+        ("seed", "[0, 2^64 - 1]", ("rooms", 2**64), 0.5),
+    ],
+)
+def test_what_no_random_world_can_be_is_refused(quantity, says, arguments, difficulty):
+    assert (
+        says in refused(lambda: World.random(*arguments, difficulty=difficulty), quantity).allowed
+    )
+
+
+def _outline(obstacle):
+    """Points of an obstacle's outline: corners, or places around a circle."""
+    if isinstance(obstacle, devlearn.Polygon):
+        return list(obstacle.corners)
+    x, y = obstacle.center
+    if isinstance(obstacle, devlearn.Circle):
+        around = np.linspace(0, 2 * np.pi, 72)
+        return [(x + obstacle.radius * np.cos(a), y + obstacle.radius * np.sin(a)) for a in around]
+    c, s = np.cos(np.radians(obstacle.angle)), np.sin(np.radians(obstacle.angle))
+    half = np.array([(1, 1), (1, -1), (-1, -1), (-1, 1)]) * obstacle.size / 2
+    return [(x + c * u - s * v, y + s * u + c * v) for u, v in half]
+
+
+@pytest.mark.parametrize("index", range(1, 7))
+def test_in_a_similar_world_start_and_target_are_free_and_there_is_a_way(index, paper):
+    world = World.random("similar", index)
+    assert (world.start, world.target) == (paper.start, paper.target)
+    assert world.clearance(*world.start[:2], walls_count=True) > 0.2
+    assert world.clearance(*world.target, walls_count=True) > 0.2
+    assert len(devlearn.shortest_path(devlearn.Robot(world))) > 1
+
+
+@pytest.mark.parametrize("index", range(1, 21))
+def test_obstacles_of_a_similar_world_have_the_papers_sizes_and_a_way_between_them(index, paper):
+    world = World.random("similar", index)
+    for moved, original in zip(world.obstacles, paper.obstacles):
+        assert type(moved) is type(original)
+        size, other = (np.ptp(_distances(o)) for o in (moved, original))
+        assert size == pytest.approx(other)
+        assert _distances(moved) == pytest.approx(_distances(original))
+        others = [o for o in world.obstacles if o != moved]
+        assert len(others) == 7
+        alone = World(5, 5, world.start, world.target, others)
+        assert min(float(alone.clearance(x, y)) for x, y in _inside(_outline(moved))) >= 0.35
+
+
+def _distances(obstacle):
+    points = _outline(obstacle)
+    return [math.dist(p, q) for p in points for q in points]
+
+
+def _inside(points):
+    return [(min(max(x, 0.0), 5.0), min(max(y, 0.0), 5.0)) for x, y in points]
 
 
 # --- built in code -------------------------------------------------------------------------------

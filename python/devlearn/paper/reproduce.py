@@ -93,7 +93,7 @@ def reproduce(
 def _run(
     world: _core.World, seeds: Sequence[int], journal: Journal, workers: int | None, say: Say
 ) -> dict[str, Results]:
-    similar = [places.similar_world(seed) for seed in seeds]
+    similar = [_core.World.random("similar", seed) for seed in seeds]
 
     def measured(planned: list[dict[str, Any]], what: str) -> list[Measures]:
         say(f"{what}: {len(planned)} runs")

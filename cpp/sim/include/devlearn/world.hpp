@@ -60,6 +60,12 @@ class World {
   World& operator=(const World&) = default;
   ///@}
 
+  /// A world of 5 m x 5 m drawn by chance, the same on every machine; the robot of the paper has a
+  /// way from start to target. kind: "similar" (to Fig. 2), "clutter", "corridors", "rooms" or
+  /// "traps". difficulty in [0, 1]: what it means for each kind is in docs/worlds.md. Throws
+  /// InvalidValue.
+  static World random(const std::string& kind, std::uint64_t seed, double difficulty = 0.5);
+
   /// The world in a file (the format is in docs/world-format.md and world.schema.json). Throws
   /// FileError, naming file and field.
   static World load(const std::string& path);
