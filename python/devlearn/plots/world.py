@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib import patches
 from matplotlib.lines import Line2D
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
 from .._core import Circle, Rectangle, Robot, RobotDef, World
 from ..analysis.fields import config_of, world_of
@@ -30,7 +30,11 @@ def arena_axes(
     import matplotlib.pyplot as plt
 
     # Around the axes, in inches. Automatic layouts do not foresee what equal aspects leave over.
-    left, right, bottom, top = 0.4, 0.72 if bar else 0.1, 0.4, 0.08
+    x, y = (
+        0.062 * max(len(f"{edge:.0f}") for edge in (begin, begin + size))  # numbers at ticks
+        for begin, size in zip(world.origin, (world.width, world.height))
+    )
+    left, right, bottom, top = 0.338 + y, 0.72 if bar else max(0.1, x / 2), 0.4, 0.08
     bottom += 0.22 * legend
     top += 0.2 * title
     width = COLUMN - left - right
@@ -89,6 +93,7 @@ def draw_arena(ax: Axes, world: World) -> None:
     ax.set_ylabel("y [m]")
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10], integer=True))
+        axis.set_major_formatter(ScalarFormatter(useOffset=False))
     for spine in ax.spines.values():
         spine.set_visible(False)
 

@@ -104,13 +104,28 @@ def test_without_axes_a_figure_of_a_columns_width_is_made(free, paths, trial):
         assert ax.figure.get_figwidth() == COLUMN, name
 
 
+def assert_nothing_is_cut_off(figure, name):
+    figure.canvas.draw()
+    drawn, page = figure.get_tightbbox(), figure.get_size_inches()
+    assert drawn.x0 >= 0 and drawn.y0 >= 0, (name, drawn)
+    assert drawn.x1 <= page[0] and drawn.y1 <= page[1], (name, drawn, page)
+
+
 def test_nothing_drawn_in_a_figure_of_its_own_is_cut_off(free, paths, trial):
     for name, plot in every_plot(free, paths, trial).items():
-        figure = plot(None).figure
-        figure.canvas.draw()
-        drawn, page = figure.get_tightbbox(), figure.get_size_inches()
-        assert drawn.x0 >= 0 and drawn.y0 >= 0, (name, drawn)
-        assert drawn.x1 <= page[0] and drawn.y1 <= page[1], (name, drawn, page)
+        assert_nothing_is_cut_off(plot(None).figure, name)
+
+
+@pytest.mark.parametrize("origin", [(100, -50), (-2000, 3000), (1e5, -1e5)])
+def test_numbers_of_a_world_far_away_are_written_out_and_not_cut_off(origin):
+    x, y = origin
+    world = devlearn.World(5, 5, start=(x + 1, y + 1, 0), target=(x + 4, y + 4), origin=origin)
+    for ax in (plots.plot_world(world), plots.plot_sef(world, points=21)):
+        assert_nothing_is_cut_off(ax.figure, origin)
+        for axis, edge in ((ax.xaxis, x), (ax.yaxis, y)):
+            assert f"{edge:.0f}".replace("-", "\N{MINUS SIGN}") in [
+                label.get_text() for label in axis.get_ticklabels()
+            ]
 
 
 def test_no_plot_runs_a_trial_or_moves_what_it_reads(free, paths, trial, monkeypatch):
