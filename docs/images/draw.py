@@ -36,13 +36,14 @@ def draw_worlds():
 def draw_kinds():
     """One world of each kind that is drawn by chance, at three difficulties."""
     for kind in ("similar", "clutter", "corridors", "rooms", "traps"):
-        figure, axes = plt.subplots(1, 3, figsize=(6.0, 2.2), layout="constrained")
+        figure, axes = plt.subplots(1, 3, figsize=(6.0, 2.25), layout="constrained")
+        figure.get_layout_engine().set(h_pad=0.06)
         for ax, difficulty in zip(axes, (0.0, 0.5, 1.0)):
             world = devlearn.World.random(kind, 1, difficulty=difficulty)
             plots.plot_world(world, ax=ax, sonar=False, legend=False)
             ax.set_title(f"difficulty {difficulty:g}")
             ax.set(xlabel="", ylabel="", xticks=[], yticks=[])
-        save(figure, f"kind_{kind}.png", 80)
+        save(figure, f"kind_{kind}.png", 110)
 
 
 def draw_readme():
