@@ -24,7 +24,14 @@ int winner(const MotorMemory& memory, int curious, double sigma,
       Eigen::ArrayXd::NullaryExpr(n, [=](Eigen::Index j) { return j == curious ? active : 0.0; });
   const auto op = devlearn::op(o, c, sigma);
   int best = 0;
-  for (int j = 1; j < n; ++j) best = op(j) > op(best) ? j : best;
+  double highest = op(0);
+  for (int j = 1; j < n; ++j) {
+    const double value = op(j);
+    if (value > highest) {
+      highest = value;
+      best = j;
+    }
+  }
   return best;
 }
 

@@ -113,7 +113,7 @@ double heading_of(Direction vector) noexcept {
   if (y > x) near = 90.0 - near;
   if (vector.x < 0.0) near = 180.0 - near;
   if (vector.y < 0.0) near = 360.0 - near;
-  const int degrees = static_cast<int>(near + 0.5);
+  const auto degrees = static_cast<int>(std::lround(near));
 
   // The rest, less than a degree, by its tangent t: arctan t as a Taylor series.
   const Direction whole = kWholeDegrees[static_cast<std::size_t>(degrees % 360)];

@@ -8,7 +8,7 @@ namespace devlearn {
 TrialConfig load_config(const std::string& path) {
   constexpr json::Limits kLimits{std::size_t{4} << 20, 4, 100'000};
   const json::Document document(text_of_file(path, kLimits.bytes), path, kLimits);
-  const auto config = json::def_at<TrialConfig>(document.root());
+  auto config = json::def_at<TrialConfig>(document.root());
   made_of(path, [&] { config.validate(); });
   return config;
 }

@@ -31,7 +31,7 @@ double graded(double easy, double hard, double difficulty) {
   return easy + (hard - easy) * difficulty;
 }
 int graded(int easy, int hard, double difficulty) {
-  return easy + static_cast<int>((hard - easy) * difficulty + 0.5);
+  return easy + static_cast<int>(std::lround((hard - easy) * difficulty));
 }
 
 double between(Random& random, double low, double high) {
@@ -78,7 +78,7 @@ class WaySearch {
 
   void reach(const Pose& pose) {
     const auto cell = [](double x) { return static_cast<std::size_t>(x / kCell); };
-    const auto heading = static_cast<std::size_t>(pose.heading / 30.0 + 0.5) % 12;
+    const auto heading = static_cast<std::size_t>(std::lround(pose.heading / 30.0)) % 12;
     const std::size_t here = (cell(pose.y) * kCells + cell(pose.x)) * 12 + heading;
     if (reached_[here]) return;
     reached_[here] = true;
