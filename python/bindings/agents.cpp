@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <optional>
 
 #include "bindings.hpp"
@@ -28,10 +29,20 @@ std::string name_of(const py::object& type) {
 }
 
 [[noreturn]] void refuse_entry(const std::string& name, const py::object& value) {
-  throw InvalidValue("agent.state()[" + name + "]",
-                     py::str("{} {}").format(py::type::of(value), py::repr(value)),
+  throw InvalidValue("agent.state()[" + name + "]", shown(py::type::of(value)) + " " + shown(value),
                      "a str, a number, or a numpy array of float64, int64, uint64, int32, uint32, "
                      "uint16, uint8 or bool");
+}
+
+// A text in UTF-8.
+std::string text_from(const std::string& quantity, const py::handle& text) {
+  py::ssize_t size = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+  if (bytes == nullptr) {
+    PyErr_Clear();
+    throw InvalidValue(quantity, shown(text), "a str without surrogates");
+  }
+  return {bytes, static_cast<std::size_t>(size)};
 }
 
 // A copy of a number or a numpy array.
@@ -40,7 +51,8 @@ StateArray array_from(const std::string& name, const py::object& value) {
   const bool number = py::isinstance<py::bool_>(value) || py::isinstance<py::int_>(value) ||
                       py::isinstance<py::float_>(value) ||
                       py::isinstance(value, numpy.attr("generic"));
-  if (!number && !py::isinstance<py::array>(value)) refuse_entry(name, value);
+  // Of a subclass, such as a masked array, only a part would be kept.
+  if (!number && !py::type::of(value).is(numpy.attr("ndarray"))) refuse_entry(name, value);
   const py::object found = numpy.attr("asarray")(value).attr("dtype");
   for (const Type& type : kTypes) {
     const py::object dtype = numpy.attr("dtype")(type.numpy);
@@ -63,23 +75,34 @@ StateArray array_from(const std::string& name, const py::object& value) {
 AgentState state_from(const py::object& agent) {
   const py::object given = agent.attr("state")();
   if (!py::isinstance<py::dict>(given)) {
-    throw InvalidValue("agent.state()", py::repr(given), "a dict of numpy arrays by name");
+    throw InvalidValue("agent.state()", shown(given), "a dict of numpy arrays by name");
   }
   AgentState state;
   state.kind = name_of(py::type::of(agent));
   for (const auto& [key, value] : given.cast<py::dict>()) {
-    const std::string shown = py::repr(key);
+    const std::string shown_key = shown(key);
     if (!py::isinstance<py::str>(key)) {
-      throw InvalidValue("agent.state()", shown, "a name that is a str");
+      throw InvalidValue("agent.state()", shown_key, "a name that is a str");
     }
-    const auto name = key.cast<std::string>();
+    const std::string name = text_from("agent.state()", key);
     if (py::isinstance<py::str>(value)) {
-      state.texts[name] = value.cast<std::string>();
+      state.texts[name] = text_from("agent.state()[" + shown_key + "]", value);
     } else {
-      state.arrays[name] = array_from(shown, py::reinterpret_borrow<py::object>(value));
+      state.arrays[name] = array_from(shown_key, py::reinterpret_borrow<py::object>(value));
     }
   }
   return state;
+}
+
+// numpy bounds dimensions and lengths by more than the bytes.
+py::array numpy_array(const std::string& name, const py::dtype& dtype,
+                      const std::vector<py::ssize_t>& shape, const void* first) {
+  try {
+    return py::array(dtype, shape, first);
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    throw InvalidValue(name, shown(error.value(), PyObject_Str), "a shape that numpy can hold");
+  }
 }
 
 // The reverse: texts as str, arrays without dimensions as numbers, others as numpy arrays.
@@ -94,7 +117,7 @@ py::dict dict_of(const AgentState& state) {
     const auto* const type = std::find_if(std::begin(kTypes), std::end(kTypes),
                                           [&](const Type& t) { return array.dtype == t.dtype; });
     const std::vector<py::ssize_t> shape(array.shape.begin(), array.shape.end());
-    const py::object values = py::array(py::dtype(type->numpy), shape, first);
+    const py::object values = numpy_array(name, py::dtype(type->numpy), shape, first);
     result[py::str(name)] = shape.empty() ? py::object(values.attr("item")()) : values;
   }
   return result;
@@ -108,7 +131,7 @@ class PythonAgent final : public Agent {
   explicit PythonAgent(py::object agent) : agent_(std::move(agent)) {
     for (const char* method : {"choose", "observe"}) {
       if (!py::hasattr(agent_, method)) {
-        throw InvalidValue("agent", py::repr(agent_),
+        throw InvalidValue("agent", shown(agent_),
                            "None, a Learner, or an object with choose(observation) and "
                            "observe(outcome)");
       }
@@ -129,7 +152,7 @@ class PythonAgent final : public Agent {
     py::detail::make_caster<Choice> choice;
     if (choice.load(chosen, true)) return choice;
     if (!PyIndex_Check(chosen.ptr())) {
-      throw InvalidValue("agent's choice", py::repr(chosen), "a motion index or a Choice");
+      throw InvalidValue("agent's choice", shown(chosen), "a motion index or a Choice");
     }
     return {chosen.cast<Whole<MotionTag>>().value, Kind::kUnstated};
   }
@@ -138,7 +161,20 @@ class PythonAgent final : public Agent {
     const py::gil_scoped_acquire gil;
     const py::object result = agent_.attr("observe")(outcome);
     py::detail::make_caster<Development> development;
-    return development.load(result, true) ? Development(development) : Development{};
+    if (development.load(result, true)) {
+      const Development developed = development;
+      constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
+      require_count("agent's development.reduced", developed.reduced, 0,
+                    std::numeric_limits<int>::max());
+      require_count("agent's development.explored_count", developed.explored_count, 0, kMost);
+      require_count("agent's development.effective_count", developed.effective_count, 0, kMost);
+      return developed;
+    }
+    if (py::isinstance(result, py::module_::import("devlearn._types").attr("Development"))) {
+      throw InvalidValue("agent's development", shown(result),
+                         "a Development of an Event and whole numbers");
+    }
+    return {};
   }
 
   void cancel() override { call_if_there("cancel"); }
@@ -149,7 +185,7 @@ class PythonAgent final : public Agent {
     if (py::hasattr(agent_, "state") && py::hasattr(py::type::of(agent_), "from_state")) {
       return state_from(agent_);
     }
-    throw InvalidValue("agent", py::repr(agent_),
+    throw InvalidValue("agent", shown(agent_),
                        "a Learner, a RandomAgent, or an agent with state() and a classmethod "
                        "from_state; save any other yourself, the trial with without_agent=True, "
                        "and give it to load as agent=");
@@ -189,13 +225,14 @@ LoadOptions load_options(const py::object& agent) {
   if (agent.is_none()) return {};
   if (!PyType_Check(agent.ptr())) return {as_agent(agent)};
   if (!py::hasattr(agent, "from_state")) {
-    throw InvalidValue("agent", py::repr(agent), "an agent, or a class with from_state");
+    throw InvalidValue("agent", shown(agent), "an agent, or a class with from_state");
   }
   const AgentMaker make = [agent](const AgentState& state) {
     const py::gil_scoped_acquire gil;
     // A module may have moved, or be the program itself.
     const std::string name = py::str(agent.attr("__qualname__"));
-    if (state.kind.substr(state.kind.find(':') + 1) != name) {
+    const std::size_t colon = state.kind.find(':');
+    if (colon == state.kind.npos || state.kind.substr(colon + 1) != name) {
       throw InvalidValue("agent", state.kind, "one of " + name + ", the class given");
     }
     return as_agent(agent.attr("from_state")(dict_of(state)));

@@ -134,6 +134,9 @@ py::array moved_array(std::vector<T>&& values, std::vector<py::ssize_t> shape = 
   return py::array(py::dtype::of<Scalar>(), std::move(shape), owned->data(), owner);
 }
 
+/// A value as it may stand in a message: its repr, or another text of it, cut where it is long.
+std::string shown(py::handle value, PyObject* (*text)(PyObject*) = PyObject_Repr);
+
 /// The attributes of these names, as a tuple.
 inline py::tuple attributes(const py::object& self, const std::vector<std::string>& names) {
   py::tuple values(names.size());
@@ -201,15 +204,18 @@ struct type_caster<devlearn::python::Idle> {
 template <typename Tag>
 struct type_caster<devlearn::python::Whole<Tag>> {
   PYBIND11_TYPE_CASTER(devlearn::python::Whole<Tag>, const_name("typing.SupportsIndex"));
-  bool load(handle source, bool convert) {
+  bool load(handle source, bool) {
+    // By __index__ alone: a conversion would cut fractions off.
+    const auto whole = reinterpret_steal<object>(PyNumber_Index(source.ptr()));
     make_caster<typename Tag::type> caster;
-    if (caster.load(source, convert)) {
+    if (whole && caster.load(whole, false)) {
       value.value = cast_op<typename Tag::type>(caster);
       return true;
     }
     PyErr_Clear();
     if (!PyIndex_Check(source.ptr())) return false;
-    throw devlearn::InvalidValue(Tag::quantity, str(source), Tag::allowed);
+    throw devlearn::InvalidValue(Tag::quantity, devlearn::python::shown(source, PyObject_Str),
+                                 Tag::allowed);
   }
 };
 

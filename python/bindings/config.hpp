@@ -103,13 +103,16 @@ std::string in_lines(const std::string& text);
 template <typename Def, std::size_t... I>
 void def_constructor(py::class_<Def>& cls, std::index_sequence<I...>) {
   const Def defaults;
-  cls.def(py::init([](Argument<Def, I>... given) {
-            Def def;
-            (assign<Def, I>(def, std::move(given)), ...);
-            def.validate();
-            return def;
-          }),
-          (py::arg(field_of<Def, I>().name) = default_of<Def, I>(defaults))...);
+  cls.def(
+      py::init([](Argument<Def, I>... given) {
+        Def def;
+        (assign<Def, I>(def, std::move(given)), ...);
+        def.validate();
+        return def;
+      }),
+      (py::arg(field_of<Def, I>().name)
+           // Any value has a truth; what is no bool is refused.
+           .noconvert(std::is_same_v<Argument<Def, I>, bool>) = default_of<Def, I>(defaults))...);
 }
 
 /// The class: its constructor, an attribute a field, fields, to_dict, from_dict, replace, equality,

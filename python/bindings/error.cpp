@@ -22,6 +22,19 @@ py::object as_path(const std::string& bytes) {
 
 }  // namespace
 
+std::string shown(py::handle value, PyObject* (*text)(PyObject*)) {
+  constexpr py::ssize_t kLongest = 160;
+  const auto whole = py::reinterpret_steal<py::object>(text(value.ptr()));
+  if (!whole) {
+    if (!PyErr_ExceptionMatches(PyExc_Exception)) throw py::error_already_set();
+    PyErr_Clear();
+    return "a value of " + shown(py::type::of(value));
+  }
+  const py::object cut = whole[py::slice(0, kLongest, 1)];
+  const py::bytes bytes = cut.attr("encode")("utf-8", "backslashreplace");
+  return std::string(bytes) + (py::len(whole) > kLongest ? "..." : "");
+}
+
 // The exception types live on the Python side, so that Python code raises the same ones.
 void bind_error(py::module_&) {
   py::register_local_exception_translator([](std::exception_ptr raised) {

@@ -29,7 +29,7 @@ void bind_random(py::module_& m) {
             Random::State words{};
             if (!py::isinstance<py::array_t<std::uint64_t>>(state) || state.ndim() != 1 ||
                 state.shape(0) != static_cast<py::ssize_t>(words.size())) {
-              throw InvalidValue("state", py::repr(state), "an array of four uint64");
+              throw InvalidValue("state", shown(state), "an array of four uint64");
             }
             const auto view = py::array_t<std::uint64_t>(state).unchecked<1>();
             for (std::size_t i = 0; i < words.size(); ++i) {

@@ -20,7 +20,7 @@ class Saving {
     if (record.is_none()) return;
     const py::module_ ours = py::module_::import("devlearn.record");
     if (!py::isinstance(record, ours.attr("Record"))) {
-      throw InvalidValue("record", py::repr(record), "None or a Record");
+      throw InvalidValue("record", shown(record), "None or a Record");
     }
     record_ = record_of(record);
     options_.record = &record_;

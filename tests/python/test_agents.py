@@ -11,6 +11,8 @@ import pytest
 from conftest import differences, joined, refused
 from devlearn import (
     Choice,
+    Development,
+    Event,
     Kind,
     Learner,
     LearnerConfig,
@@ -203,6 +205,11 @@ def test_an_agent_answers_with_an_index_or_a_choice(paper, answer, kind):
         (float("nan"), "nan"),
         ([1], "[1]"),
         (np.array([1, 2]), "[1 2]"),
+        (np.array(2.7), "2.7"),
+        (Choice(np.array(2.0)), "2.0"),
+        (Choice(np.float32(2.0)), "Choice(motion=np.float32(2.0), kind=<Kind.UNSTATED: 3>)"),
+        pytest.param(10**5000, "a value of <class 'int'>", id="huge"),
+        ("x" * 200, "'" + "x" * 159 + "..."),
     ],
 )
 def test_any_other_answer_is_refused_and_the_trial_left_as_it_was(paper, answer, value):
@@ -212,6 +219,27 @@ def test_any_other_answer_is_refused_and_the_trial_left_as_it_was(paper, answer,
     assert "motion" in error.quantity or "choice" in error.quantity
     assert len(trial.interrupted) == len(agent.told) == 3
     assert trial.pose == tuple(trial.interrupted.path()[-1])
+
+
+@pytest.mark.parametrize(
+    "development",
+    [
+        Development(0, 0, 77, 0),
+        Development(0, 0, None, 0),
+        Development(0, 0, Event.NOTHING, 0.5),
+        Development(0, 0, Event.NOTHING, -1),
+        Development(0, 0, Event.NOTHING, 2**31),
+        Development(0, 0, Event.NOTHING, 0, -1),
+        Development(0, 0, Event.NOTHING, 0, 0, -1),
+    ],
+)
+def test_a_development_that_no_record_holds_is_refused(paper, development):
+    agent = Loop()
+    agent.observe = lambda outcome: development
+    trial = Trial(paper, agent=agent)
+    error = refused(trial.step)
+    assert error.quantity.startswith("agent's development")
+    assert (trial.pose, trial.round) == (paper.start, 0)
 
 
 def test_an_agent_hears_that_its_motion_was_refused(paper):
@@ -523,6 +551,9 @@ def test_the_file_names_the_class_and_nothing_is_imported_by_it(paper, tmp_path)
     Trial(paper).save(path)
     with pytest.raises(devlearn.FileError, match="agent: got learner; expected one of QLearner"):
         Trial.load(path, agent=QLearner)
+    learner = type("learner", (QLearner,), {})
+    with pytest.raises(devlearn.FileError, match="agent: got learner; expected one of learner"):
+        Trial.load(path, agent=learner)
     refused(lambda: Trial.load(path, agent=Loop), "agent")
     refused(lambda: Trial.load(path, agent=7), "agent")
     agent = QLearner(2)
@@ -537,6 +568,7 @@ def test_the_file_names_the_class_and_nothing_is_imported_by_it(paper, tmp_path)
         ({1: np.zeros(3)}, "agent.state()"),
         ({"q": None}, "agent.state()['q']"),
         ({"q": [1.0, 2.0]}, "agent.state()['q']"),
+        ({"q": [0] * 10**5}, "agent.state()['q']"),
         ({"q": np.zeros(3, np.float32)}, "agent.state()['q']"),
         ({"q": np.zeros(3, np.int16)}, "agent.state()['q']"),
         ({"q": np.zeros(3, complex)}, "agent.state()['q']"),
@@ -544,6 +576,10 @@ def test_the_file_names_the_class_and_nothing_is_imported_by_it(paper, tmp_path)
         ({"q": np.array([None])}, "agent.state()['q']"),
         ({"q": 2**64}, "agent.state()['q']"),
         ({"q": b"bytes"}, "agent.state()['q']"),
+        pytest.param({"q": 10**5000}, "agent.state()['q']", id="huge"),
+        ({"q": np.ma.array([1.0, 2.0], mask=[False, True])}, "agent.state()['q']"),
+        ({"q": "\ud800"}, "agent.state()['q']"),
+        ({"\ud800": 1.0}, "agent.state()"),
     ],
 )
 def test_a_state_that_no_file_holds_is_refused_by_its_key(paper, tmp_path, state, quantity):
@@ -552,7 +588,8 @@ def test_a_state_that_no_file_holds_is_refused_by_its_key(paper, tmp_path, state
             return state
 
     trial = Trial(paper, agent=Odd(1))
-    refused(lambda: trial.save(tmp_path / "trial"), quantity)
+    error = refused(lambda: trial.save(tmp_path / "trial"), quantity)
+    assert len(error.value) < 300
     assert not (tmp_path / "trial").exists()
 
 

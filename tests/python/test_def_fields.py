@@ -5,9 +5,11 @@ import inspect
 import json
 import pickle
 import re
+from decimal import Decimal
 from pathlib import Path
 
 import devlearn
+import numpy as np
 import pytest
 from devlearn import LearnerConfig, Record, RobotDef, StateEvaluation, TrialConfig, _core
 from devlearn.record import POSE_COLUMNS, STEP_COLUMNS
@@ -159,3 +161,22 @@ def test_a_step_has_every_column_of_a_step_and_says_what_it_is():
     for name, (_, doc) in _core.step_columns.items():
         assert hasattr(step, name)
         assert getattr(devlearn.Step, name).__doc__ == doc[0].upper() + doc[1:] + "."
+
+
+@pytest.mark.parametrize("value", [2.7, np.float32(2.7), np.array(2.7), Decimal("2.7"), None, "3"])
+def test_no_whole_number_is_cut_to_fit(value):
+    for call in (
+        lambda: RobotDef(sonar_count=value),
+        lambda: LearnerConfig(motion_count=value),
+        lambda: TrialConfig(heading_bins=value),
+        lambda: devlearn.RandomAgent(seed=value),
+    ):
+        with pytest.raises((devlearn.InvalidValue, TypeError)):
+            call()
+
+
+@pytest.mark.parametrize("value", [1, 0.0, float("nan"), None, "yes", []])
+def test_only_true_and_false_are_truths(value):
+    with pytest.raises(TypeError):
+        TrialConfig(walls_count=value)
+    assert TrialConfig(walls_count=np.bool_(True)).walls_count is True
