@@ -55,6 +55,14 @@ def test_columns_have_their_types_and_lengths(record):
         assert column.flags.c_contiguous
 
 
+def test_phases_of_no_round_and_no_step_hold_echoes_where_others_do(paper):
+    trial = Trial(paper, seed=1)
+    phases = [trial.path_learning, trial.run, trial.path_learning]
+    records = [phase(count, echoes=True) for phase, count in zip(phases, (0, 3, 0))]
+    assert [r.echoes.shape for r in records] == [(0, 5), (3, 5), (0, 5)]
+    assert differences(Record.concatenate(records), records[1]) == []
+
+
 def test_a_record_of_rounds_only_tells_the_same_rounds_and_holds_no_steps(paper, tmp_path):
     def trial():
         return Trial(paper, TrialConfig.step5(), seed=1)
@@ -67,6 +75,8 @@ def test_a_record_of_rounds_only_tells_the_same_rounds_and_holds_no_steps(paper,
     assert len(brief) == len(brief.x) == 0
     brief.save(tmp_path / "brief.npz")
     assert (Record.load(tmp_path / "brief.npz").rounds == kept.rounds).all()
+    trial().save(tmp_path / "trial", brief)
+    assert differences(Record.load(tmp_path / "trial"), brief) == []
     for call in (brief.offsets, lambda: brief.path(0), lambda: brief.to_csv("-")):
         refused(call, "record")
     refused(lambda: trial().run(1, echoes=True, rounds_only=True), "rounds_only")

@@ -58,12 +58,16 @@ void Record::count(const Step& step) noexcept {
 }
 
 void Record::validate() const {
+  constexpr long long kMany = std::numeric_limits<std::int64_t>::max();
+  const bool brief = rounds_only();
+  const std::size_t poses = brief ? 0 : steps() + rounds.size();
   std::size_t step = 0;
   for (std::size_t i = 0; i < rounds.size(); ++i) {
     const std::string name = "record.rounds[" + std::to_string(i) + "]";
     require_count(name + ".round", rounds[i].round, 1, std::numeric_limits<std::int32_t>::max());
-    require_count(name + ".steps", rounds[i].steps, 0, static_cast<long long>(steps() - step));
-    step += static_cast<std::size_t>(rounds[i].steps);
+    const auto left = static_cast<long long>(steps() - step);
+    require_count(name + ".steps", rounds[i].steps, 0, brief ? kMany : left);
+    if (!brief) step += static_cast<std::size_t>(rounds[i].steps);
   }
   if (step != steps()) {
     throw InvalidValue("record.rounds.steps", "a sum of " + std::to_string(step),
@@ -78,7 +82,7 @@ void Record::validate() const {
     require_size(column.name, (this->*column.values).size(), steps());
   });
   detail::each_column(kPoseColumns, [&](auto& column) {
-    require_size(column.name, (this->*column.values).size(), steps() + rounds.size());
+    require_size(column.name, (this->*column.values).size(), poses);
   });
   require_count("record.sonar_count", sonar_count, 0, 720);
   require_size("echoes", echoes.size(), steps() * static_cast<std::size_t>(sonar_count));

@@ -253,7 +253,7 @@ void Trial::run(Record& record, std::int64_t steps, const RunOptions& options) {
 void Trial::free_learning(Record& record, std::int64_t steps, const RunOptions& options) {
   require_count("steps", steps, 0, kMostSteps);
   const OneCall call(under_way_);
-  require_like(record, options);
+  open(record, options);
   put(world().def().start);
   run_on(record, steps, false, options);
 }
@@ -263,7 +263,7 @@ void Trial::path_learning(Record& record, std::int64_t rounds, std::int64_t step
   require_count("rounds", rounds, 0, kLastRound);
   require_count("step_limit", step_limit, 1, kMostSteps);
   const OneCall call(under_way_);
-  require_like(record, options);
+  open(record, options);
   for (std::int64_t i = 0; i < rounds; ++i) {
     put(world().def().start);
     if (!run_on(record, step_limit, true, options)) return;
@@ -279,17 +279,17 @@ void Trial::go_on(Record& record, std::int64_t steps, bool until_arrival,
                   const RunOptions& options) {
   require_count("steps", steps, 0, kMostSteps);
   const OneCall call(under_way_);
-  require_like(record, options);
+  open(record, options);
   round_ = std::max(round_, 1);
   run_on(record, steps, until_arrival, options);
 }
 
 // A record holds every step or none, and echoes of every one or of none.
-void Trial::require_like(const Record& record, const RunOptions& options) const {
+void Trial::open(Record& record, const RunOptions& options) const {
   if (options.rounds_only && options.echoes) {
     throw InvalidValue("rounds_only", "true, and echoes too", "only one of them");
   }
-  if (!record.rounds.empty() && record.x.empty() != options.rounds_only) {
+  if (!record.rounds.empty() && record.rounds_only() != options.rounds_only) {
     throw InvalidValue("rounds_only", options.rounds_only ? "true" : "false",
                        "as in the rounds that the record already has");
   }
@@ -298,12 +298,12 @@ void Trial::require_like(const Record& record, const RunOptions& options) const 
     throw InvalidValue("record.sonar_count", std::to_string(record.sonar_count),
                        std::to_string(sonars) + ", as many echoes a step as now are recorded");
   }
+  record.sonar_count = sonars;
 }
 
 // Steps of the present round, into the record; false where it was interrupted.
 bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
                    const RunOptions& options) {
-  record.sonar_count = options.echoes ? config_.robot.sonar_count : 0;
   if (!options.rounds_only) {
     record.begin_round(round_, pose());
     if (!until_arrival) record.reserve(static_cast<std::size_t>(std::min(steps, kStepsAtOnce)));

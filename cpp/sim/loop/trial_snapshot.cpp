@@ -220,8 +220,11 @@ std::optional<Record> record_of(const Contents& contents, const std::string& sou
   detail::each_column(Record::step_columns(), [&](auto& column) {
     take(column.name, record.*column.values, {steps}, column.dtype());
   });
+  // Of rounds only there are none.
+  const auto x = contents.arrays.find("record.x");
+  const bool none = x != contents.arrays.end() && x->second.shape == Shape{0};
   detail::each_column(Record::pose_columns(), [&](auto& column) {
-    take(column.name, record.*column.values, {steps + rounds}, column.dtype());
+    take(column.name, record.*column.values, {none ? 0 : steps + rounds}, column.dtype());
   });
   if (record.sonar_count != 0) {
     take("echoes", record.echoes, {steps, static_cast<std::uint64_t>(record.sonar_count)}, "F64");

@@ -176,16 +176,19 @@ def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
         if not equals or not isinstance(place, dict) or last not in place:
             known = ", ".join(_names(config.to_dict()))
             raise InvalidValue("--set", repr(change), f"FIELD=VALUE, where FIELD is one of {known}")
+        field = owner.fields()[last]
         try:
             place[last] = json.loads(text)
-        except ValueError:
+        except (ValueError, RecursionError):
             place[last] = text
         try:
+            if isinstance(place[last], bool) and not isinstance(field["default"], bool):
+                raise TypeError  # to Python true is a number, too
             owner.from_dict({last: place[last]})
         except InvalidValue:
             pass  # it may be right with the others
         except TypeError as error:
-            raise InvalidValue("--set", repr(change), owner.fields()[last]["range"]) from error
+            raise InvalidValue("--set", repr(change), field["range"]) from error
     return config.from_dict(fields)
 
 

@@ -117,3 +117,15 @@ TEST_CASE("a transform that Eigen made of an angle is the pose of that many radi
     REQUIRE(std::min(apart, 360.0 - apart) <= 1e-12);
   }
 }
+
+TEST_CASE("no direction is made up where none is given") {
+  for (const double strange : {std::nan(""), static_cast<double>(INFINITY)}) {
+    check_refused([&] { to_isometry({1.0, 2.0, strange}); }, "heading", to_text(strange));
+    Eigen::Isometry2d isometry = Eigen::Isometry2d::Identity();
+    isometry.linear()(1, 0) = strange;
+    check_refused([&] { to_pose(isometry); }, "linear.y", to_text(strange));
+  }
+  Eigen::Isometry2d nowhere = Eigen::Isometry2d::Identity();
+  nowhere.linear().setZero();
+  check_refused([&] { to_pose(nowhere); }, "linear", "zero");
+}

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "core/refusal.hpp"
@@ -23,6 +24,14 @@ TEST_CASE("the clearances of many points are those of each") {
   }
   check_refused([&] { fill_clearances(world, points.leftCols(3), clearances); }, "clearances",
                 "400 values");
+  for (const double strange : {std::nan(""), -static_cast<double>(INFINITY)}) {
+    Eigen::Matrix2Xd some = points.leftCols(3);
+    some(1, 2) = strange;
+    Eigen::ArrayXd untouched = Eigen::ArrayXd::Constant(3, -1.0);
+    check_refused([&] { fill_clearances(world, some, untouched); }, "points.y[2]",
+                  to_text(strange));
+    CHECK((untouched == -1.0).all());
+  }
 }
 
 TEST_CASE("echoes written into an array are those of the vector; what is refused writes none") {

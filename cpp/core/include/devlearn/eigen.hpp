@@ -36,8 +36,10 @@ inline void fill_situations(const SituationGrid& grid,
   grid.situations(poses.data(), static_cast<std::size_t>(poses.outerStride()), count, ids.data());
 }
 
-/// The transform from the robot's frame, x ahead and y to the left, into the world's.
+/// The transform from the robot's frame, x ahead and y to the left, into the world's. The heading
+/// must be finite.
 inline Eigen::Isometry2d to_isometry(const Pose& pose) {
+  require_finite("heading", pose.heading);
   const Direction ahead = direction(pose.heading);
   Eigen::Isometry2d isometry = Eigen::Isometry2d::Identity();
   isometry.linear() << ahead.x, -ahead.y, ahead.y, ahead.x;
@@ -46,9 +48,12 @@ inline Eigen::Isometry2d to_isometry(const Pose& pose) {
 }
 
 /// The reverse: the pose of a robot whose frame this is, its heading in [0, 360) degrees. A heading
-/// of whole degrees comes back as it was.
+/// of whole degrees comes back as it was. Where it points must be finite, and not zero.
 inline Pose to_pose(const Eigen::Isometry2d& isometry) {
   const Eigen::Vector2d ahead = isometry.linear().col(0), place = isometry.translation();
+  require_finite("linear.x", ahead.x());
+  require_finite("linear.y", ahead.y());
+  if (ahead.isZero(0.0)) throw InvalidValue("linear", "zero", "a rotation");
   return {place.x(), place.y(), heading_of({ahead.x(), ahead.y()})};
 }
 

@@ -11,11 +11,16 @@ namespace devlearn {
 
 /// As devlearn/eigen.hpp, for worlds and robots.
 
-/// d_o of many points, one a column [m]: World::clearance of each.
+/// d_o of many points, one a column [m]: World::clearance of each, which must be finite.
 inline void fill_clearances(const World& world, const Eigen::Ref<const Eigen::Matrix2Xd>& points,
                             Eigen::Ref<Eigen::ArrayXd> clearances, bool walls_count = false) {
   require_size("clearances", static_cast<std::size_t>(clearances.size()),
                static_cast<std::size_t>(points.cols()));
+  require_each(static_cast<std::size_t>(points.cols()), [&](std::size_t i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    require_finite("points.x", points(0, column));
+    require_finite("points.y", points(1, column));
+  });
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     clearances(i) = world.clearance({points(0, i), points(1, i)}, walls_count);
   }

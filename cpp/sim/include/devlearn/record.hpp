@@ -104,6 +104,9 @@ struct Record {
   /// How many there are.
   std::size_t steps() const noexcept { return situation.size(); }
 
+  /// Whether it holds rounds without their steps and poses.
+  bool rounds_only() const noexcept { return !rounds.empty() && x.empty(); }
+
   /// Begins a round: its number and the pose it begins from. Where the last round has this number
   /// and ended at this pose, that one goes on.
   void begin_round(std::int32_t number, const Pose& pose);
@@ -114,8 +117,9 @@ struct Record {
   /// The same in `rounds` alone, as runs do that keep only rounds.
   void count(const Step& step) noexcept;
 
-  /// Throws InvalidValue, naming the column, unless all are of the length that the rounds make and
-  /// hold what a trial can write: rounds from 1, counts at least 0, known kinds and events.
+  /// Throws InvalidValue, naming the column, unless all are of the length that the rounds make, or
+  /// of rounds only empty, and hold what a trial can write: rounds from 1, counts at least 0, known
+  /// kinds and events.
   void validate() const;
 };
 

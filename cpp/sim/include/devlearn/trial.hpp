@@ -154,7 +154,7 @@ class Trial {
   void put(const Pose& pose);
   void open_round();
   void close_round(bool arrived);
-  void require_like(const Record& record, const RunOptions& options) const;
+  void open(Record& record, const RunOptions& options) const;
   void go_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
   bool run_on(Record& record, std::int64_t steps, bool until_arrival, const RunOptions& options);
 

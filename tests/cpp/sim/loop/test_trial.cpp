@@ -256,6 +256,9 @@ TEST_CASE("a run that keeps only rounds has the same history, and keeps the same
   }
   CHECK(rounds.steps() == 0);
   CHECK(rounds.x.empty());
+  CHECK(rounds.rounds_only());
+  CHECK_FALSE(kept.rounds_only());
+  CHECK_NOTHROW(rounds.validate());
   CHECK(same(recorded([&](Record& r) { plain.run(r, 500); }),
              recorded([&](Record& r) { brief.run(r, 500); })));
 
