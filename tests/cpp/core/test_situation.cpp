@@ -168,10 +168,16 @@ TEST_CASE("a grid refuses sides and numbers of cells out of range") {
 
 TEST_CASE("a grid refuses an origin further than 10 000 km") {
   for (const double bad : {1.1e7, -1.1e7, kInfinity, kNaN}) {
-    check_refused([=] { SituationGrid(5, 5, 1, 1, 1, {bad, 0.0}); }, "SituationGrid.origin.x",
-                  to_text(bad));
-    check_refused([=] { SituationGrid(5, 5, 1, 1, 1, {0.0, bad}); }, "SituationGrid.origin.y",
-                  to_text(bad));
+    check_refused(
+        [=] {
+          SituationGrid(5, 5, 1, 1, 1, {bad, 0.0});
+        },
+        "SituationGrid.origin.x", to_text(bad));
+    check_refused(
+        [=] {
+          SituationGrid(5, 5, 1, 1, 1, {0.0, bad});
+        },
+        "SituationGrid.origin.y", to_text(bad));
   }
 }
 

@@ -34,13 +34,13 @@ using Obstacle = std::variant<Circle, Rectangle, Polygon>;
 /// What a world is made of. Centres and corners lie in the arena enlarged by its own size on each
 /// side; limits on numbers are in docs/world-format.md.
 struct WorldDef {
-  std::string name;                 ///< for people
-  std::string description;          ///< for people
-  double width = 5.0;               ///< the arena's side along x, in [0.5, 1000] m
-  double height = 5.0;              ///< the arena's side along y, in [0.5, 1000] m
-  Point origin;                     ///< the arena's corner of least x and y, each within 100 km of 0
-  Pose start{0.5, 0.5, 0.0};        ///< inside the arena, outside every obstacle
-  Point target{4.5, 4.5};           ///< inside the arena, outside every obstacle
+  std::string name;           ///< for people
+  std::string description;    ///< for people
+  double width = 5.0;         ///< the arena's side along x, in [0.5, 1000] m
+  double height = 5.0;        ///< the arena's side along y, in [0.5, 1000] m
+  Point origin;               ///< the arena's corner of least x and y, each within 100 km of 0
+  Pose start{0.5, 0.5, 0.0};  ///< inside the arena, outside every obstacle
+  Point target{4.5, 4.5};     ///< inside the arena, outside every obstacle
   std::vector<Obstacle> obstacles;  ///< they may overlap each other and the walls
 
   /// The arena's corner of greatest x and y.
