@@ -54,6 +54,8 @@ bool way_is_free(const World& world, const RobotDef& robot, const Pose& from,
   constexpr double kRounding = 1e-9;  // [m], more than all of it
   const Point start{from.x, from.y}, end{to.x, to.y};
   const double room = robot.radius + kFreeMargin, length = step_length(robot);
+  const double in_sight = world.surfaces().distance_at_least(end);
+  if (std::min(in_sight, world.wall_distance(end)) > room + length + kRounding) return true;
   const double at_end = world.clearance(end, true);
   if (at_end < room - kRounding) return false;
   if (at_end > room + length + kRounding) return true;

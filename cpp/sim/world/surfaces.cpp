@@ -106,7 +106,7 @@ void Surfaces::build() {
     const Unfinished here = std::move(unfinished.front());
     if (here.held.surfaces.size() <= kFew || here.square.side < kLeastSide || room < 0) {
       if (here.held.surfaces.size() + here.held.outlines.size() <= kMany) {
-        cells_[here.cell] = listed(here.held);
+        cells_[here.cell] = listed(here.square, here.held);
       }
       continue;
     }
@@ -128,8 +128,7 @@ double Surfaces::distance(std::uint32_t surface, Point p) const noexcept {
 }
 
 Surfaces::Candidates Surfaces::held_in(const Square& square, const Candidates& candidates) const {
-  const double half = 0.5 * square.side;
-  const Point centre{square.low.x + half, square.low.y + half};
+  const Point centre = square.centre();
   std::vector<double> distances;
   distances.reserve(candidates.surfaces.size());
   double least = kInfinite;
@@ -137,7 +136,7 @@ Surfaces::Candidates Surfaces::held_in(const Square& square, const Candidates& c
     distances.push_back(distance(surface, centre));
     least = std::min(least, distances.back());
   }
-  const double rho = std::sqrt(2.0) * half;
+  const double rho = std::sqrt(0.5) * square.side;
   Candidates held;
   for (std::size_t i = 0; i < distances.size(); ++i) {
     if (distances[i] > least + 2.0 * rho + kMargin) continue;
@@ -150,7 +149,7 @@ Surfaces::Candidates Surfaces::held_in(const Square& square, const Candidates& c
   return held;
 }
 
-Surfaces::Cell Surfaces::listed(const Candidates& held) {
+Surfaces::Cell Surfaces::listed(const Square& square, const Candidates& held) {
   Cell cell;
   cell.kind = Cell::Kind::kListed;
   const auto end = [this] { return static_cast<std::uint32_t>(held_.size()); };
@@ -166,6 +165,8 @@ Surfaces::Cell Surfaces::listed(const Candidates& held) {
   cell.outlines = end();
   held_.insert(held_.end(), held.outlines.begin(), held.outlines.end());
   cell.last = end();
+  cell.centre = square.centre();
+  cell.clearance = distance(cell, cell.centre);
   return cell;
 }
 
@@ -181,8 +182,15 @@ const Surfaces::Cell& Surfaces::leaf(Point p) const noexcept {
   return *cell;
 }
 
-double Surfaces::distance(Point p) const noexcept {
+double Surfaces::distance(Point p) const noexcept { return distance(leaf(p), p); }
+
+// No point is nearer to anything than another one less the way there.
+double Surfaces::distance_at_least(Point p) const noexcept {
   const Cell& cell = leaf(p);
+  return cell.clearance - devlearn::distance(p, cell.centre) - kMargin;
+}
+
+double Surfaces::distance(const Cell& cell, Point p) const noexcept {
   if (inside_outline(cell, p)) return 0.0;
   if (cell.kind == Cell::Kind::kSearched) return searched_distance(p);
   double squared = kInfinite;

@@ -26,6 +26,10 @@ class Surfaces {
   /// Least distance from p to an obstacle, 0 inside one, infinite where there is none.
   double distance(Point p) const noexcept;
 
+  /// No more than that distance, and less work: what p's cell tells without looking at a surface.
+  /// Below 0 where it tells nothing.
+  double distance_at_least(Point p) const noexcept;
+
   /// Least distance from p to the walls, 0 outside.
   double wall_distance(Point p) const noexcept {
     const auto [low, high] = arena_;
@@ -57,6 +61,7 @@ class Surfaces {
     Point low;
     double side = 0.0;
     Box box() const noexcept { return {low, {low.x + side, low.y + side}}; }
+    Point centre() const noexcept { return {low.x + 0.5 * side, low.y + 0.5 * side}; }
     Square part(int i) const noexcept {
       const double quarter = 0.25 * side;
       return {{low.x + i % 4 * quarter, low.y + i / 4 * quarter}, quarter};
@@ -79,15 +84,18 @@ class Surfaces {
     };
     Kind kind = Kind::kSearched;
     std::uint32_t first = 0, circles = 0, outlines = 0, last = 0;
+    Point centre;
+    double clearance = 0.0;  // distance(centre), 0 where the cell is not listed
   };
 
   void add_edges(const std::vector<Point>& corners);
   void build();
   Candidates held_in(const Square& square, const Candidates& candidates) const;
-  Cell listed(const Candidates& held);
+  Cell listed(const Square& square, const Candidates& held);
   template <typename Meet>
   void search(const Box& place, double& limit, const Meet& meet) const;
   double distance(std::uint32_t surface, Point p) const noexcept;
+  double distance(const Cell& leaf, Point p) const noexcept;
   double searched_distance(Point p) const noexcept;
   const Cell& leaf(Point p) const noexcept;
   bool inside_outline(const Cell& leaf, Point p) const noexcept;

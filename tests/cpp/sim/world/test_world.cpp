@@ -713,6 +713,27 @@ TEST_CASE("Leaving far obstacles out changes no bit of a clearance") {
   CHECK(differ == 0);
 }
 
+TEST_CASE("What is told of a distance without looking is never too much, and in the open near it") {
+  Random random(7, "at least");
+  long told = 0, too_much = 0, near = 0;
+  for (int n = 0; n < 100; ++n) {
+    const World world = random_world(random, 8, 4.0);
+    for (int i = 0; i < 200; ++i) {
+      const Point p = point_in(random, 4.0);
+      const double distance = world.clearance(p);
+      const double at_least = world.surfaces().distance_at_least(p);
+      too_much += at_least > distance;
+      told += at_least > 0.0;
+      near += at_least > 0.5 * distance;
+    }
+  }
+  CHECK(too_much == 0);
+  CHECK(told > 5000);
+  CHECK(near > 3000);
+  CHECK(World().surfaces().distance_at_least({2.0, 3.0}) == kInfinite);
+  CHECK(World().surfaces().distance_at_least({-20.0, 3.0}) < 0.0);
+}
+
 TEST_CASE("Swept clearance is the least clearance along the way") {
   Random random(6, "swept");
   int crossing = 0, clear = 0;
