@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 # Okabe and Ito (2008): told apart by the colour-blind.
 BLACK = "#000000"
 ORANGE = "#E69F00"
-SKY = "#56B4E9"
 GREEN = "#009E73"
 BLUE = "#0072B2"
 VERMILLION = "#D55E00"

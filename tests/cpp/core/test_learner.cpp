@@ -18,6 +18,7 @@
 #include "devlearn/error.hpp"
 #include "devlearn/learner.hpp"
 #include "devlearn/random.hpp"
+#include "golden_text.hpp"
 #include "refusal.hpp"
 
 namespace devlearn {
@@ -463,29 +464,10 @@ std::vector<std::string> golden_history(const LearnerConfig& config) {
   return lines;
 }
 
-// What a golden file says: a hash of all lines (FNV-1a), their number, and the first and last ones.
-std::string golden_text(const std::vector<std::string>& lines) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const std::string& line : lines) {
-    for (const char letter : line + "\n") {
-      hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
-    }
-  }
-  char head[80];
-  std::snprintf(head, sizeof head, "hash %016llx of %zu lines\n",
-                static_cast<unsigned long long>(hash), lines.size());
-  std::string text = head;
-  const std::size_t final_lines = kGoldenSituations;
-  for (std::size_t i = 0; i < kGoldenLinesKept; ++i) text += lines[i] + "\n";
-  text += "...\n";
-  for (std::size_t i = lines.size() - final_lines; i < lines.size(); ++i) text += lines[i] + "\n";
-  return text;
-}
-
 void check_golden(const std::string& preset, const LearnerConfig& config) {
   const std::string path =
       std::string(DEVLEARN_SOURCE_DIR "/tests/golden/learner_") + preset + ".txt";
-  const std::string text = golden_text(golden_history(config));
+  const std::string text = golden_text(golden_history(config), kGoldenLinesKept, kGoldenSituations);
   if (std::getenv("DEVLEARN_UPDATE_GOLDEN") != nullptr) std::ofstream(path) << text;
   std::ifstream file(path);
   REQUIRE_MESSAGE(file, path);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/golden_text.hpp"
 #include "core/refusal.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/learner_agent.hpp"
@@ -84,30 +85,12 @@ Record whole_history(Trial& trial, std::int64_t steps) {
   return record;
 }
 
-std::string golden_text(const std::vector<std::string>& lines) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const std::string& line : lines) {
-    for (const char letter : line + "\n") {
-      hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
-    }
-  }
-  char head[80];
-  std::snprintf(head, sizeof head, "hash %016llx of %zu lines\n",
-                static_cast<unsigned long long>(hash), lines.size());
-  std::string text = head;
-  constexpr std::size_t kFirst = 200, kLast = 20;
-  for (std::size_t i = 0; i < kFirst; ++i) text += lines[i] + "\n";
-  text += "...\n";
-  for (std::size_t i = lines.size() - kLast; i < lines.size(); ++i) text += lines[i] + "\n";
-  return text;
-}
-
 std::string golden_path(const std::string& name) {
   return std::string(DEVLEARN_SOURCE_DIR) + "/tests/golden/" + name + ".txt";
 }
 
 void check_golden(const std::string& name, const Record& record) {
-  const std::string text = golden_text(lines_of(record)), path = golden_path(name);
+  const std::string text = golden_text(lines_of(record), 200, 20), path = golden_path(name);
   if (std::getenv("DEVLEARN_UPDATE_GOLDEN") != nullptr) std::ofstream(path) << text;
   std::stringstream golden;
   golden << std::ifstream(path).rdbuf();

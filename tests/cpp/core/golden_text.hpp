@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+// What a golden file says: a hash of all lines (FNV-1a), their number, and the first and last ones.
+inline std::string golden_text(const std::vector<std::string>& lines, std::size_t first,
+                               std::size_t last) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const std::string& line : lines) {
+    for (const char letter : line + "\n") {
+      hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+    }
+  }
+  char head[80];
+  std::snprintf(head, sizeof head, "hash %016llx of %zu lines\n",
+                static_cast<unsigned long long>(hash), lines.size());
+  std::string text = head;
+  for (std::size_t i = 0; i < first; ++i) text += lines[i] + "\n";
+  text += "...\n";
+  for (std::size_t i = lines.size() - last; i < lines.size(); ++i) text += lines[i] + "\n";
+  return text;
+}
