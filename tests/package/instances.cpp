@@ -41,8 +41,9 @@ double of_devlearn() {
   memory.reduce();
   const devlearn::Curiosity curiosity(0.5, 1.0);
   devlearn::Random random(1, "instances");
-  const auto draw = static_cast<int>(random.index(devlearn::draw_count(memory)));
-  const int place = devlearn::choose_motion(memory, draw, 0.3, curiosity);
+  const devlearn::Candidates left = devlearn::candidates(memory);
+  const auto draw = static_cast<int>(random.index(left.count()));
+  const int place = devlearn::choose_motion(memory, left, draw, 0.3, curiosity);
   memory.abandon(0);
   return memory.orientation(0) + devlearn::choice_at(memory, place).motion + random.uniform();
 }

@@ -1,5 +1,9 @@
 #include "devlearn/choice.hpp"
 
+#include <algorithm>
+
+#include "devlearn/detail/require.hpp"
+#include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
 #include "op.hpp"
 
@@ -15,17 +19,25 @@ Curiosity::Curiosity(double c1, double c2) noexcept : c1_(c1), c2_(c2) {
   }
 }
 
-int winner(const MotorMemory& memory, int curious, double sigma,
-           const Curiosity& curiosity) noexcept {
+void AllowedMotions::require(int motion_count) const {
+  require_size("allowed", count_, static_cast<std::size_t>(motion_count));
+  if (std::find(allowed_, allowed_ + count_, true) == allowed_ + count_) {
+    throw InvalidValue("allowed", "no motion", "at least one that is true");
+  }
+}
+
+int winner(const MotorMemory& memory, int curious, double sigma, const Curiosity& curiosity,
+           AllowedMotions allowed) noexcept {
   const int n = memory.effective_count();
   const double active = curiosity(memory.times_learned(curious));
   const ConstArray o(memory.orientations(), n);
   const auto c =
       Eigen::ArrayXd::NullaryExpr(n, [=](Eigen::Index j) { return j == curious ? active : 0.0; });
   const auto op = devlearn::op(o, c, sigma);
-  int best = 0;
-  double highest = op(0);
-  for (int j = 1; j < n; ++j) {
+  int best = nth_allowed(memory, 0, 0, allowed);
+  double highest = op(best);
+  for (int j = best + 1; j < n; ++j) {
+    if (!allowed(memory.motion(j))) continue;
     const double value = op(j);
     if (value > highest) {
       highest = value;
@@ -33,6 +45,12 @@ int winner(const MotorMemory& memory, int curious, double sigma,
     }
   }
   return best;
+}
+
+int place_in_order(const MotorMemory& memory, int n, AllowedMotions allowed) noexcept {
+  int motion = 0;
+  while (!allowed(motion) || n-- > 0) ++motion;
+  return memory.place_of(motion);
 }
 
 }  // namespace devlearn

@@ -49,21 +49,72 @@ Learner::Learner(const LearnerConfig& config, std::uint64_t seed)
       random_(seed, "agent"),
       curiosity_(config.c1, config.c2),
       store_(config.motion_count),
-      last_block_(store_.block_bytes()) {}
+      last_block_(store_.block_bytes() + static_cast<std::size_t>(config.motion_count)) {}
 
-Choice Learner::choose(SituationId situation) {
+Learner& Learner::operator=(const Learner& other) {
+  if (this == &other) return *this;
+  if (config_.motion_count != other.config_.motion_count) return *this = Learner(other);
+  store_ = other.store_;  // the one that may throw
+  config_ = other.config_;
+  seed_ = other.seed_;
+  random_ = other.random_;
+  curiosity_ = other.curiosity_;
+  pending_slot_ = other.pending_slot_;
+  pending_choice_ = other.pending_choice_;
+  pending_place_ = other.pending_place_;
+  std::memcpy(last_block_.data(), other.last_block_.data(), last_block_.size());
+  last_every_ = other.last_every_;
+  last_draw_ = other.last_draw_;
+  explored_count_ = other.explored_count_;
+  effective_count_ = other.effective_count_;
+  return *this;
+}
+
+Choice Learner::choose(SituationId situation, AllowedMotions allowed) {
   require_situation(situation);
   if (pending_slot_ != SituationStore::kAbsent) refuse_second_choice();
+  allowed.validate(config_.motion_count);
   const Slot slot = store_.find_or_add(situation);
   const MotorMemory here = store_.memory(slot);
-  std::memcpy(last_block_.data(), store_.block(slot), last_block_.size());
-  last_draw_ = static_cast<int>(random_.index(static_cast<std::uint32_t>(draw_count(here))));
-  const int place = choose_motion(here, last_draw_, config_.sigma, curiosity_);
+  std::memcpy(last_block_.data(), store_.block(slot), store_.block_bytes());
+  last_every_ = allowed.every();
+  if (!last_every_) {
+    std::memcpy(last_block_.data() + store_.block_bytes(), allowed.data(), allowed.size());
+  }
+  const Candidates left = candidates(here, allowed);
+  last_draw_ = static_cast<int>(random_.index(static_cast<std::uint32_t>(left.count())));
+  const int place = choose_motion(here, left, last_draw_, config_.sigma, curiosity_, allowed);
   const Choice choice = choice_at(here, place);
   pending_slot_ = slot;
   pending_place_ = place;
   pending_choice_ = choice;
   return choice;
+}
+
+std::optional<int> Learner::best(SituationId situation) const noexcept {
+  const Slot slot = store_.find(situation);
+  if (slot == SituationStore::kAbsent) return std::nullopt;
+  const MotorMemory memory = store_.memory(slot);
+  const double* const o = memory.orientations();
+  const int n = memory.effective_count();
+  if (n == 0) return std::nullopt;
+  return memory.motion(static_cast<int>(std::max_element(o, o + n) - o));
+}
+
+bool Learner::forget(SituationId situation) {
+  require_situation(situation);
+  const Slot slot = store_.find(situation);
+  if (slot == SituationStore::kAbsent) return false;
+  if (slot == pending_slot_) {
+    throw InvalidValue("Learner.forget", "the situation in which a choice waits for its outcome",
+                       "learn() or cancel() before it");
+  }
+  const MotorMemory memory = store_.memory(slot);
+  explored_count_ -= memory.tried_count();
+  effective_count_ -= memory.effective_count();
+  if (pending_slot_ == store_.nth(store_.size() - 1)) pending_slot_ = slot;
+  store_.forget(situation);
+  return true;
 }
 
 Development Learner::learn(double smf) {
@@ -159,16 +210,24 @@ std::vector<SituationId> Learner::situations() const {
   return ids;
 }
 
-Explanation Learner::explain(SituationId situation) const {
+Explanation Learner::explain(SituationId situation, AllowedMotions allowed) const {
   require_situation(situation);
+  allowed.validate(config_.motion_count);
   std::vector<std::byte> fresh;
-  return devlearn::explain(situation, store_.look_up(situation, fresh), config_.sigma, curiosity_);
+  return devlearn::explain(situation, store_.look_up(situation, fresh), config_.sigma, curiosity_,
+                           allowed);
 }
 
 std::optional<ChoiceTrace> Learner::last_choice() const {
   if (last_draw_ < 0) return std::nullopt;
   const std::byte* const block = last_block_.data();
-  return trace(store_.id_in(block), store_.memory_in(block), last_draw_, config_.sigma, curiosity_);
+  const std::size_t bytes = store_.block_bytes();
+  const AllowedMotions allowed = last_every_
+                                     ? AllowedMotions()
+                                     : AllowedMotions(reinterpret_cast<const bool*>(block + bytes),
+                                                      last_block_.size() - bytes);
+  return trace(store_.id_in(block), store_.memory_in(block), last_draw_, config_.sigma, curiosity_,
+               allowed);
 }
 
 std::optional<Choice> Learner::pending() const noexcept {

@@ -33,6 +33,31 @@ SituationStore::SituationStore(int motion_count)
       buckets_(kLeastBuckets, kEmpty),
       number_mask_(mask_for(situations_for(kLeastBuckets))) {}
 
+SituationStore::SituationStore(const SituationStore& other)
+    : motion_count_(other.motion_count_),
+      block_bytes_(other.block_bytes_),
+      blocks_(other.blocks_.size()),
+      buckets_(other.buckets_.size(), kEmpty),
+      number_mask_(other.number_mask_) {
+  *this = other;
+}
+
+SituationStore& SituationStore::operator=(const SituationStore& other) {
+  if (this == &other) return *this;
+  if (motion_count_ != other.motion_count_ || room() < other.size_) {
+    return *this = SituationStore(other);
+  }
+  size_ = other.size_;
+  growth_refused_ = other.growth_refused_;
+  if (size_ > 0) std::memcpy(blocks_.data(), other.blocks_.data(), size_ * block_bytes_);
+  if (buckets_.size() == other.buckets_.size()) {
+    std::copy_n(other.buckets_.data(), buckets_.size(), buckets_.data());
+  } else {
+    put_all();
+  }
+  return *this;
+}
+
 void SituationStore::begin_block(std::byte* block, SituationId situation) const noexcept {
   std::memcpy(block, &situation, sizeof situation);
   memory_in(block).clear();
@@ -45,7 +70,7 @@ MotorMemory SituationStore::look_up(SituationId situation, std::vector<std::byte
   return memory_in(fresh.data());
 }
 
-void SituationStore::reserve(std::size_t situations) {
+void SituationStore::reserve(std::size_t situations, Pages pages) {
   if (situations >= kEmpty) {
     throw InvalidValue("situations", std::to_string(situations), "at most 4294967294");
   }
@@ -55,18 +80,27 @@ void SituationStore::reserve(std::size_t situations) {
     blocks_.swap(roomier);
   }
   if (situations > situations_for(buckets_.size())) {
-    buckets_ = decltype(buckets_)(buckets_for(situations), kEmpty);
+    buckets_ = decltype(buckets_)(buckets_for(situations));
     number_mask_ = mask_for(situations_for(buckets_.size()));
-    for (std::size_t n = 0; n < size_; ++n) {
-      const SituationId situation = id(nth(n));
-      put(static_cast<std::uint32_t>(n), situation, look_for(situation).bucket);
-    }
+    put_all();
   }
+  if (pages == Pages::kTouched && !blocks_.empty()) {
+    const std::size_t used = size_ * block_bytes_;
+    std::memset(blocks_.data() + used, 0, blocks_.size() - used);
+  }
+}
+
+std::size_t SituationStore::room() const noexcept {
+  return std::min(blocks_.size() / block_bytes_, situations_for(buckets_.size()));
 }
 
 SituationStore::Slot SituationStore::add(SituationId situation, std::size_t bucket) {
   const std::size_t size = size_ + 1;
-  if (size * block_bytes_ > blocks_.size() || size > situations_for(buckets_.size())) {
+  if (size > room()) {
+    if (growth_refused_) {
+      throw InvalidValue("situations", std::to_string(size),
+                         "at most " + std::to_string(room()) + ", the room there is");
+    }
     const std::size_t doubled = std::min<std::size_t>(2 * size_, kEmpty - 1);
     reserve(std::max({size, doubled, situations_for(kLeastBuckets)}));
     bucket = look_for(situation).bucket;
@@ -80,6 +114,44 @@ SituationStore::Slot SituationStore::add(SituationId situation, std::size_t buck
 
 void SituationStore::put(std::uint32_t number, SituationId situation, std::size_t bucket) noexcept {
   buckets_[bucket] = number | (mark_of(scattered(situation)) & ~number_mask_);
+}
+
+// All blocks, into an index of nothing.
+void SituationStore::put_all() noexcept {
+  std::fill(buckets_.begin(), buckets_.end(), kEmpty);
+  for (std::size_t n = 0; n < size_; ++n) {
+    const SituationId situation = id(nth(n));
+    put(static_cast<std::uint32_t>(n), situation, look_for(situation).bucket);
+  }
+}
+
+void SituationStore::forget(SituationId situation) noexcept {
+  const auto [slot, bucket] = look_for(situation);
+  if (slot == kAbsent) return;
+  const Slot last = nth(size_ - 1);
+  if (slot != last) {
+    put(buckets_[bucket] & number_mask_, id(last), look_for(id(last)).bucket);
+    std::memcpy(blocks_.data() + slot, block(last), block_bytes_);
+  }
+  empty(bucket);
+  --size_;
+}
+
+// Entries that were put further on because this bucket was taken move back, so that no search ends
+// before it has found them.
+void SituationStore::empty(std::size_t bucket) noexcept {
+  for (std::size_t next = bucket;;) {
+    if (++next == buckets_.size()) next = 0;
+    const std::uint32_t entry = buckets_[next];
+    if (entry == kEmpty) break;
+    const std::size_t home = home_of(scattered(id(nth(entry & number_mask_))));
+    const bool passes_bucket =
+        bucket < next ? home <= bucket || home > next : home <= bucket && home > next;
+    if (!passes_bucket) continue;
+    buckets_[bucket] = entry;
+    bucket = next;
+  }
+  buckets_[bucket] = kEmpty;
 }
 
 MemoryUse SituationStore::memory_use() const noexcept {

@@ -42,9 +42,10 @@ class Chooser {
       : sigma_(config.sigma), curiosity_(config.c1, config.c2) {}
 
   Choice operator()(const MotorMemory& memory, Random& random) const {
-    const auto count = static_cast<std::uint32_t>(draw_count(memory));
+    const Candidates left = candidates(memory);
+    const auto count = static_cast<std::uint32_t>(left.count());
     const auto draw = static_cast<int>(random.index(count));
-    return choice_at(memory, choose_motion(memory, draw, sigma_, curiosity_));
+    return choice_at(memory, choose_motion(memory, left, draw, sigma_, curiosity_));
   }
 
  private:

@@ -182,6 +182,30 @@ TEST_CASE("up to the reserved situations nothing is allocated, whatever is met")
   CHECK(met.reduced > 0);
 }
 
+TEST_CASE("a copy into a learner that has room allocates nothing, nor do best, forget and masks") {
+  Learner learner(LearnerConfig::paper(), 4), spare;
+  learner.reserve(500);
+  spare.reserve(600);
+  const std::vector<SituationId> ids = some_ids(500);
+  Random random(4, "steps");
+  const bool allowed[] = {true, false, true, true, false};
+  const long allocated = allocations_in([&] {
+    for (const SituationId id : ids) {
+      learner.choose(id, allowed);
+      learner.learn(random.uniform() - 0.4);
+      learner.best(id);
+      if (random.index(4) == 0) learner.forget(id);
+      if (random.index(50) == 0) spare = learner;
+    }
+    spare = learner;
+  });
+  CHECK(allocated == 0);
+  require_alike(learner, spare);
+  // The count counts.
+  Learner small;
+  CHECK(allocations_in([&] { small = learner; }) > 0);
+}
+
 TEST_CASE("beyond the reserved situations allocations grow with the logarithm of their number") {
   for (const std::size_t reserved : {0U, 1000U}) {
     Learner learner;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "devlearn/motor_memory.hpp"
@@ -11,7 +12,7 @@ namespace devlearn {
 enum class Kind : std::uint8_t {
   kExplore = 0,    ///< drawn from RM_i, the motions not yet tried here
   kExploit = 1,    ///< winner of orientation and curiosity among M_i, the effective motions
-  kExhausted = 2,  ///< every motion was tried here and none is effective: drawn from all of M
+  kExhausted = 2,  ///< all that are allowed were tried and none is effective: drawn from these
   kUnstated = 3,   ///< chosen by an agent that gives no reason
 };
 
@@ -42,30 +43,102 @@ class Curiosity {
   std::array<double, 256> first_;
 };
 
-/// Step 3 of the method (Eq. 5, 7): one uniform draw settles everything. It comes from
-/// 0 ... draw_count - 1, each as likely: the n_i + n_R motions not known as ineffective or, with
-/// nothing left of these, all of M.
-inline int draw_count(const MotorMemory& memory) noexcept {
-  const int left = memory.effective_count() + memory.unexplored_count();
-  return left > 0 ? left : memory.motion_count();
+/// Which motions may be chosen: bools that someone else owns, one a motion of M. A view: it copies
+/// nothing, and is valid as long as they are.
+class AllowedMotions {
+ public:
+  /// Every motion.
+  AllowedMotions() = default;
+  /// allowed: count of them.
+  AllowedMotions(const bool* allowed, std::size_t count) noexcept
+      : allowed_(allowed), count_(count) {}
+  ///@{
+  /// Those of an array.
+  template <std::size_t N>
+  AllowedMotions(const bool (&allowed)[N]) noexcept : AllowedMotions(allowed, N) {}
+  template <std::size_t N>
+  AllowedMotions(const std::array<bool, N>& allowed) noexcept : AllowedMotions(allowed.data(), N) {}
+  ///@}
+
+  /// Whether it was made of no bools, and so allows whatever there is.
+  bool every() const noexcept { return allowed_ == nullptr; }
+  /// Whether this motion is allowed.
+  bool operator()(int motion) const noexcept { return every() || allowed_[motion]; }
+  /// The bools, or null for every motion.
+  const bool* data() const noexcept { return allowed_; }
+  /// How many bools there are.
+  std::size_t size() const noexcept { return count_; }
+
+  /// Throws InvalidValue unless there is a bool for each of M's motions and one of them is true.
+  void validate(int motion_count) const {
+    if (!every()) require(motion_count);
+  }
+
+ private:
+  void require(int motion_count) const;
+
+  const bool* allowed_ = nullptr;
+  std::size_t count_ = 0;
+};
+
+/// How many of the motions at the places first ... last - 1 are allowed.
+inline int count_allowed(const MotorMemory& memory, int first, int last,
+                         AllowedMotions allowed) noexcept {
+  if (allowed.every()) return last - first;
+  int count = 0;
+  for (int place = first; place < last; ++place) count += allowed(memory.motion(place)) ? 1 : 0;
+  return count;
 }
 
-/// The place of the effective motion with the largest op (Eq. 7), the first in M_i among equals,
-/// where only the curiosity of effective motion `curious` is active.
-int winner(const MotorMemory& memory, int curious, double sigma,
-           const Curiosity& curiosity) noexcept;
+/// The place of the n-th allowed motion, counted from 0 and from place `first`; it must exist.
+inline int nth_allowed(const MotorMemory& memory, int first, int n,
+                       AllowedMotions allowed) noexcept {
+  if (allowed.every()) return first + n;
+  for (int place = first;; ++place) {
+    if (allowed(memory.motion(place)) && n-- == 0) return place;
+  }
+}
 
-/// What each draw, 0 <= draw < draw_count, means: the place of the motion to execute. The first n_R
-/// name an unexplored motion, and that one is explored: probability n_R / (n_i + n_R), uniform
+/// The allowed motions that a choice is drawn from.
+struct Candidates {
+  int effective = 0;   ///< n_i of them, or fewer
+  int unexplored = 0;  ///< n_R of them, or fewer
+  int any = 0;         ///< where there are neither: all that are allowed
+
+  /// How many values a draw has.
+  int count() const noexcept { return effective + unexplored + any; }
+};
+
+/// Step 3 of the method (Eq. 5, 7): one uniform draw settles everything. It comes from
+/// 0 ... count() - 1, each as likely: the n_i + n_R motions not known as ineffective or, with
+/// nothing left of these, all of M; of each, those that are allowed.
+inline Candidates candidates(const MotorMemory& memory, AllowedMotions allowed = {}) noexcept {
+  Candidates left;
+  left.effective = count_allowed(memory, 0, memory.effective_count(), allowed);
+  left.unexplored = count_allowed(memory, memory.tried_count(), memory.motion_count(), allowed);
+  if (left.count() == 0) left.any = count_allowed(memory, 0, memory.motion_count(), allowed);
+  return left;
+}
+
+/// The place of the allowed effective motion with the largest op (Eq. 7), the first in M_i among
+/// equals, where only the curiosity of effective motion `curious`, an allowed one, is active.
+int winner(const MotorMemory& memory, int curious, double sigma, const Curiosity& curiosity,
+           AllowedMotions allowed = {}) noexcept;
+
+/// The place of the n-th allowed motion in M's own order.
+int place_in_order(const MotorMemory& memory, int n, AllowedMotions allowed) noexcept;
+
+/// What each draw, 0 <= draw < left.count(), means: the place of the motion to execute. The first
+/// ones name an unexplored motion, and that one is explored: probability n_R / (n_i + n_R), uniform
 /// within RM_i. Each other one names an effective motion, whose curiosity is active, and the winner
-/// is exploited. With nothing left to draw from, it is any motion, all of them ineffective. So the
-/// list that the place belongs to says why.
-inline int choose_motion(const MotorMemory& memory, int draw, double sigma,
-                         const Curiosity& curiosity) noexcept {
-  const int n = memory.effective_count(), unexplored = memory.unexplored_count();
-  if (draw < unexplored) return memory.tried_count() + draw;
-  if (n == 0) return memory.place_of(draw);
-  return winner(memory, draw - unexplored, sigma, curiosity);
+/// is exploited. With nothing left to draw from, it is any motion. So the list that the place
+/// belongs to says why.
+inline int choose_motion(const MotorMemory& memory, const Candidates& left, int draw, double sigma,
+                         const Curiosity& curiosity, AllowedMotions allowed = {}) noexcept {
+  if (draw < left.unexplored) return nth_allowed(memory, memory.tried_count(), draw, allowed);
+  if (left.any > 0) return place_in_order(memory, draw, allowed);
+  const int curious = nth_allowed(memory, 0, draw - left.unexplored, allowed);
+  return winner(memory, curious, sigma, curiosity, allowed);
 }
 
 /// The motion at a place, and why it was chosen.

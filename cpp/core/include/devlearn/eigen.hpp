@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <type_traits>
 
+#include "devlearn/choice.hpp"
 #include "devlearn/detail/require.hpp"
 #include "devlearn/evaluation.hpp"
 #include "devlearn/math.hpp"
@@ -35,6 +37,15 @@ inline void fill_situations(const SituationGrid& grid,
   require_size("ids", static_cast<std::size_t>(ids.size()), count);
   grid.situations(poses.data(), static_cast<std::size_t>(poses.outerStride()), count, ids.data());
 }
+
+/// Which motions may be chosen, of an array or vector of bools with one a motion: a view of it.
+template <typename Derived>
+AllowedMotions allowed_motions(const Eigen::PlainObjectBase<Derived>& allowed) {
+  static_assert(std::is_same_v<typename Derived::Scalar, bool>, "an array of bool");
+  return {allowed.data(), static_cast<std::size_t>(allowed.size())};
+}
+template <typename Derived>
+AllowedMotions allowed_motions(Eigen::PlainObjectBase<Derived>&&) = delete;  // it would be gone
 
 /// The transform from the robot's frame, x ahead and y to the left, into the world's. The heading
 /// must be finite.

@@ -10,10 +10,12 @@
 namespace devlearn {
 
 /// Why motions are chosen in a situation: all that step 3 makes of its memory. Of N motions, n are
-/// effective.
+/// effective. Where not every motion is allowed, n and n_R of the probabilities count those that
+/// are.
 struct Explanation {
   SituationId situation = -1;       ///< which
   SituationMemory memory;           ///< what the choice goes by: lists, orientations, counts
+  std::vector<bool> allowed;        ///< N: whether each motion of M may be chosen
   double explore = 0.0;             ///< probability to explore, n_R / (n + n_R)
   double exploit = 0.0;             ///< probability to exploit, n / (n + n_R)
   double exhausted = 0.0;           ///< 1 where nothing is left to explore or exploit, otherwise 0
@@ -21,7 +23,8 @@ struct Explanation {
   std::vector<double> curiosity;    ///< n: c_ik of each effective motion, Eq. 5
   std::vector<double> op_plain;     ///< n: op of each, another one's curiosity active, Eq. 7
   std::vector<double> op_curious;   ///< n: op of each, its own curiosity active, Eq. 7
-  std::vector<int> winner;  ///< n: the motion that wins where the curiosity of each is active
+  std::vector<int> winner;  ///< n: the motion that wins where the curiosity of each is active; -1
+                            ///< of one that is not allowed, whose curiosity is never active
 };
 
 /// Why one choice came out as it did.
@@ -34,11 +37,11 @@ struct ChoiceTrace {
 
 /// Explains the choices in a situation's memory.
 Explanation explain(SituationId situation, const MotorMemory& memory, double sigma,
-                    const Curiosity& curiosity);
+                    const Curiosity& curiosity, AllowedMotions allowed = {});
 
 /// Explains the choice that a draw led to.
 ChoiceTrace trace(SituationId situation, const MotorMemory& memory, int draw, double sigma,
-                  const Curiosity& curiosity);
+                  const Curiosity& curiosity, AllowedMotions allowed = {});
 
 /// A table for people, a line a motion.
 std::string to_text(const Explanation& explanation);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "devlearn/choice.hpp"
@@ -14,6 +15,12 @@
 #include "devlearn/situation.hpp"
 
 namespace devlearn {
+namespace detail {
+
+template <typename T, typename Result>
+using IfFloating = std::enable_if_t<std::is_floating_point_v<T>, Result>;
+
+}  // namespace detail
 
 /// What becomes of an effective motion that was exploited and met SMF < 0. The paper says both.
 enum class OnNegative : std::uint8_t {
@@ -143,14 +150,27 @@ class Learner {
 
   Learner(const Learner&) = default;      ///< independent, and goes on alike
   Learner(Learner&&) noexcept = default;  ///< leaves one to assign to or destroy, nothing else
-  /// Where memory for the copy does not suffice, this learner is left as it was.
-  Learner& operator=(const Learner& other) { return *this = Learner(other); }
+  /// A copy into one of as many motions that has room for the other's situations allocates nothing.
+  /// Where memory for it does not suffice, this learner is left as it was. It keeps its room.
+  Learner& operator=(const Learner& other);
   Learner& operator=(Learner&&) noexcept = default;  ///< likewise
   ~Learner() = default;
 
-  /// Step 3: chooses a motion for a situation >= 0. Throws InvalidValue for a negative situation
-  /// or while an earlier choice waits for learn or cancel.
-  Choice choose(SituationId situation);
+  /// Step 3: chooses a motion for a situation >= 0. Throws InvalidValue for a negative situation,
+  /// while an earlier choice waits for learn or cancel, or for a situation that refuse_growth
+  /// refuses.
+  Choice choose(SituationId situation) { return choose(situation, {}); }
+
+  /// The same among the motions that are allowed now: by a safety layer, by what the robot can do
+  /// here. The others are neither drawn nor explored nor won by, and stay where they are in their
+  /// lists. Of allowed motions alone, n, n_R and the draw are counted; where they all are known as
+  /// ineffective, any of them. Throws InvalidValue, too, unless there is a bool for each motion and
+  /// at least one is true. With every motion allowed, it is choose(situation) to the bit.
+  Choice choose(SituationId situation, AllowedMotions allowed);
+
+  /// The effective motion of highest orientation, the first in M_i among equals: what was learned,
+  /// without curiosity. Nothing where no motion is effective. Draws and changes nothing.
+  std::optional<int> best(SituationId situation) const noexcept;
 
   /// Steps 4-5: learns from the chosen motion's SMF, any finite number (Eq. 8). SMF >= 0 means
   /// effective. Throws InvalidValue for a non-finite smf or where no choice waits.
@@ -169,6 +189,29 @@ class Learner {
   /// exploited; ineffective, it is retried.
   Development update(SituationId situation, int motion, double smf);
 
+  /// Forgets a situation, as if it had never been experienced, in a time that does not grow with
+  /// their number; whether there was anything to forget. In the order of situations the last one
+  /// takes its place; NUM_RM and NUM_M are counted without it. Throws InvalidValue for a negative
+  /// situation, or while a choice waits in it.
+  bool forget(SituationId situation);
+
+  ///@{
+  /// A situation is a whole number. What a fraction or NaN would be cut off to, nobody means: it
+  /// does not compile.
+  template <typename T, typename... Rest>
+  detail::IfFloating<T, Choice> choose(T, Rest...) = delete;
+  template <typename T>
+  detail::IfFloating<T, std::optional<int>> best(T) const = delete;
+  template <typename T>
+  detail::IfFloating<T, bool> forget(T) = delete;
+  template <typename T>
+  detail::IfFloating<T, Development> update(T, int, double) = delete;
+  template <typename T>
+  detail::IfFloating<T, SituationMemory> situation(T) const = delete;
+  template <typename T, typename... Rest>
+  detail::IfFloating<T, Explanation> explain(T, Rest...) const = delete;
+  ///@}
+
   /// A situation's lists, as a copy; of one never experienced, every motion unexplored. Creates
   /// nothing. Throws InvalidValue for a negative situation.
   SituationMemory situation(SituationId situation) const;
@@ -179,17 +222,27 @@ class Learner {
   /// Everything it would go on from, as copies.
   LearnerState state() const;
 
-  /// Why motions are chosen in a situation as it is now; changes nothing. Throws InvalidValue for a
-  /// negative situation.
-  Explanation explain(SituationId situation) const;
+  /// Why motions are chosen in a situation as it is now, of all or of those allowed; changes
+  /// nothing. Throws InvalidValue for a negative situation, or as choose does for what is allowed.
+  Explanation explain(SituationId situation, AllowedMotions allowed = {}) const;
 
   /// Why the last choice came out as it did, learned from or not; nothing before the first one
   /// since the learner was made or loaded.
   std::optional<ChoiceTrace> last_choice() const;
 
-  /// Makes room for `situations` in all, so that up to then nothing is allocated. Throws
-  /// InvalidValue for more than 2^32 - 2, std::bad_alloc where memory does not suffice.
-  void reserve(std::size_t situations) { store_.reserve(situations); }
+  /// Makes room for `situations` in all, so that up to then nothing is allocated. kTouched: and
+  /// takes the memory from the system now, so that no later call waits for it. Throws InvalidValue
+  /// for more than 2^32 - 2, std::bad_alloc where memory does not suffice.
+  void reserve(std::size_t situations, Pages pages = Pages::kUntouched) {
+    store_.reserve(situations, pages);
+  }
+  /// For how many situations there is room.
+  std::size_t room() const noexcept { return store_.room(); }
+
+  /// Whether situations beyond the room are refused (by choose and update, with InvalidValue; the
+  /// learner is left as it was) instead of room being made, which for a million of them takes a
+  /// fifth of a second. best, forget and what was experienced go on. Not part of a snapshot.
+  void refuse_growth(bool refuse = true) noexcept { store_.refuse_growth(refuse); }
 
   std::int64_t explored_count() const noexcept { return explored_count_; }    ///< NUM_RM
   std::int64_t effective_count() const noexcept { return effective_count_; }  ///< NUM_M
@@ -218,8 +271,9 @@ class Learner {
   Slot pending_slot_ = SituationStore::kAbsent;
   Choice pending_choice_;
   int pending_place_ = -1;  // where its motion stands
-  // The last choice: the block as it was, and what was drawn.
+  // The last choice: the block as it was, then a bool for each motion, and what was drawn.
   std::vector<std::byte> last_block_;
+  bool last_every_ = true;  // motion was allowed
   int last_draw_ = -1;
 
   std::int64_t explored_count_ = 0;

@@ -11,6 +11,12 @@
 
 namespace devlearn {
 
+/// Whether memory that is made room in is taken from the system at once, or when first used.
+enum class Pages : std::uint8_t {
+  kUntouched,  ///< when first used: a call then waits for the system, microseconds at a time
+  kTouched,    ///< at once
+};
+
 /// The situations experienced, in the order they came, and where each one's motor memory lies.
 ///
 /// Each has a block: its id, then what MotorMemory views. An index finds blocks by id in a time
@@ -23,11 +29,21 @@ class SituationStore {
   /// motion_count: N_M.
   explicit SituationStore(int motion_count);
 
+  ///@{
+  /// A copy has the room of its original. One that has room for the other's situations, of as many
+  /// motions, is assigned to without allocating; where memory does not suffice nothing has changed.
+  SituationStore(const SituationStore& other);
+  SituationStore& operator=(const SituationStore& other);
+  SituationStore(SituationStore&&) noexcept = default;
+  SituationStore& operator=(SituationStore&&) noexcept = default;
+  ~SituationStore() = default;
+  ///@}
+
   /// Where a situation is, or kAbsent.
   Slot find(SituationId situation) const noexcept { return look_for(situation).slot; }
 
   /// The same, after adding it where it is missing, with every motion unexplored. Throws
-  /// std::bad_alloc; then nothing has changed.
+  /// std::bad_alloc, and InvalidValue where growth is refused; then nothing has changed.
   Slot find_or_add(SituationId situation) {
     const Found found = look_for(situation);
     return found.slot != kAbsent ? found.slot : add(situation, found.bucket);
@@ -49,9 +65,18 @@ class SituationStore {
   /// How many there are.
   std::size_t size() const noexcept { return size_; }
 
+  /// Erases a situation where there is one; the last one takes its place in the order.
+  void forget(SituationId situation) noexcept;
+
   /// Makes room for so many in all. Throws InvalidValue for more than 2^32 - 2, std::bad_alloc
   /// where memory does not suffice; then nothing has changed.
-  void reserve(std::size_t situations);
+  void reserve(std::size_t situations, Pages pages = Pages::kUntouched);
+
+  /// How many find room without another reserve.
+  std::size_t room() const noexcept;
+
+  /// Whether what finds no room is refused.
+  void refuse_growth(bool refuse) noexcept { growth_refused_ = refuse; }
 
   /// What they take.
   MemoryUse memory_use() const noexcept;
@@ -87,10 +112,13 @@ class SituationStore {
   };
   // The upper half of a situation's hash says in which bucket to begin; the mark says what lies in
   // one, so that other blocks are hardly ever looked at.
+  std::size_t home_of(std::uint64_t hash) const noexcept {
+    return (hash >> 33) * buckets_.size() >> 31;
+  }
   Found look_for(SituationId situation) const noexcept {
     const std::uint64_t hash = scattered(situation);
     const std::size_t count = buckets_.size();
-    std::size_t bucket = (hash >> 33) * count >> 31;
+    std::size_t bucket = home_of(hash);
     for (;;) {
       const std::uint32_t entry = buckets_[bucket];
       if (entry == kEmpty) return {kAbsent, bucket};
@@ -105,12 +133,15 @@ class SituationStore {
   void begin_block(std::byte* block, SituationId situation) const noexcept;
   Slot add(SituationId situation, std::size_t bucket);
   void put(std::uint32_t number, SituationId situation, std::size_t bucket) noexcept;
+  void put_all() noexcept;
+  void empty(std::size_t bucket) noexcept;
 
   static constexpr std::uint32_t kEmpty = 0xffffffffU;
 
   int motion_count_;
   std::size_t block_bytes_;
   std::size_t size_ = 0;
+  bool growth_refused_ = false;
   std::vector<std::byte, PageAllocator<std::byte>> blocks_;
   // An open-addressing index. An entry is a block's number in its lower bits and, above
   // number_mask_, the mark.
