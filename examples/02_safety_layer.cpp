@@ -2,7 +2,8 @@
 //
 // A robot drives about a table top, whose edges are cliffs, to its dock. Where a motion would lead
 // over an edge, the safety layer drives the other way; while a hand is over the table, nothing
-// moves.
+// moves. The learner is not told of refusals, or told of them afterwards, or told beforehand which
+// motions are allowed.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -63,14 +64,15 @@ struct Robot {
   }
 };
 
+enum Told { kNothing, kRefusals, kAllowed };
+
 struct Result {
   int refusals[4] = {};  // in each quarter of the ticks
   int docked = 0;
   std::string explanation;  // of the place before the eastern edge
 };
 
-// tell: of the refusals, too.
-Result run(int seed, bool tell) {
+Result run(int seed, Told told) {
   devlearn::Random random(seed, "example");
   Robot robot(random);
   devlearn::LearnerConfig config;
@@ -80,7 +82,11 @@ Result run(int seed, bool tell) {
   for (int tick = 0; tick < kTicks; ++tick) {
     const int situation = robot.situation();
     const double before = robot.distance();
-    const int chosen = learner.choose(situation).motion;
+    std::array<bool, 4> allowed{true, true, true, true};
+    if (told == kAllowed) {
+      for (int motion = 0; motion < 4; ++motion) allowed[motion] = robot.safe(motion) == motion;
+    }
+    const int chosen = learner.choose(situation, allowed).motion;
     if (random.index(20) == 0) {  // a hand
       const auto known = learner.explored_count();
       learner.cancel();  // nothing ran, so nothing is learned
@@ -95,7 +101,7 @@ Result run(int seed, bool tell) {
     if (ran != chosen) {
       ++result.refusals[4 * tick / kTicks];
       // The edge will be here next time, too: let that motion count as tried.
-      if (tell) learner.update(situation, chosen, -1.0);
+      if (told == kRefusals) learner.update(situation, chosen, -1.0);
     }
 
     if (robot.distance() < 0.06) {
@@ -115,25 +121,27 @@ int print_summary(const char* what, std::vector<int> values) {
 }
 
 int main() {
-  int late[2];
-  for (const bool tell : {false, true}) {
+  const char* const names[] = {"nothing of refusals", "of refusals", "what is allowed"};
+  int late[3];
+  for (const Told told : {kNothing, kRefusals, kAllowed}) {
     std::vector<int> first, last, docked;
     std::string explanation;
     for (int seed = 1; seed <= 11; ++seed) {
-      const Result result = run(seed, tell);
+      const Result result = run(seed, told);
       first.push_back(result.refusals[0]);
       last.push_back(result.refusals[3]);
       docked.push_back(result.docked);
       explanation = result.explanation;
     }
-    std::printf("the learner is %stold of refusals\n", tell ? "" : "not ");
+    std::printf("the learner is told %s\n", names[told]);
     print_summary("refused in ticks    1 ... 1000", first);
-    late[tell] = print_summary("refused in ticks 3001 ... 4000", last);
+    late[told] = print_summary("refused in ticks 3001 ... 4000", last);
     print_summary("times docked                  ", docked);
     std::printf(
         "what the last one makes of the place before the eastern edge, where east is refused:\n"
         "%s\n",
         explanation.c_str());
   }
-  return 2 * late[true] < late[false] ? 0 : 1;
+  require(late[kAllowed] == 0, "what is not allowed is never chosen");
+  return 2 * late[kRefusals] < late[kNothing] ? 0 : 1;
 }

@@ -125,6 +125,18 @@ py::dict dict_of(const AgentState& state) {
 
 // --- agents written in Python --------------------------------------------------------------------
 
+// An observation that Python may keep: what is allowed is its own.
+struct KeptObservation : Observation {
+  explicit KeptObservation(const Observation& seen) : Observation(seen) {
+    if (!seen.allowed.every()) {
+      mask = py::array_t<bool>(static_cast<py::ssize_t>(seen.allowed.size()), seen.allowed.data());
+    }
+    allowed = {};
+  }
+
+  py::object mask = py::none();
+};
+
 /// An agent written in Python.
 class PythonAgent final : public Agent {
  public:
@@ -148,7 +160,7 @@ class PythonAgent final : public Agent {
 
   Choice choose(const Observation& observation) override {
     const py::gil_scoped_acquire gil;
-    const py::object chosen = agent_.attr("choose")(observation);
+    const py::object chosen = agent_.attr("choose")(KeptObservation(observation));
     py::detail::make_caster<Choice> choice;
     if (choice.load(chosen, true)) return choice;
     if (!PyIndex_Check(chosen.ptr())) {
@@ -247,7 +259,7 @@ void bind_agents(py::module_& m) {
       return py::str(format).format(*attributes(self, names));
     };
   };
-  py::class_<Observation>(m, "Observation", "What an agent knows when it chooses.")
+  py::class_<KeptObservation>(m, "Observation", "What an agent knows when it chooses.")
       .def_readonly("situation", &Observation::situation, "The present situation's id.")
       .def_readonly("pose", &Observation::pose, "[m, m, degrees]")
       .def_readonly("sef", &Observation::sef, "SEF here.")
@@ -257,6 +269,14 @@ void bind_agents(py::module_& m) {
                     "Cost to go at the least: d_g / (v t_s), in steps; at least 0.")
       .def_readonly("motion_count", &Observation::motion_count,
                     "Choose one in 0 ... motion_count - 1.")
+      .def_property_readonly(
+          "allowed",
+          [](const KeptObservation& self) -> std::optional<py::array_t<bool>> {
+            if (self.mask.is_none()) return std::nullopt;
+            return self.mask;
+          },
+          "Of these, the motions that the robot can make: bools, one a motion; None for every "
+          "one.")
       .def(
           "__repr__",
           shown(

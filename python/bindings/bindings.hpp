@@ -11,6 +11,7 @@
 #include <cctype>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,6 +59,21 @@ struct MotionTag {
   using type = int;
   static constexpr const char* quantity = "motion";
   static constexpr const char* allowed = "a whole number in [0, motion_count - 1]";
+};
+
+/// Which motions may be chosen, from Python: None for every one, or bools.
+class Mask {
+ public:
+  Mask() = default;
+  explicit Mask(py::array_t<bool> allowed) : allowed_(std::move(allowed)) {}
+  /// A view of it.
+  operator AllowedMotions() const {
+    if (!allowed_) return {};
+    return {allowed_->data(), static_cast<std::size_t>(allowed_->size())};
+  }
+
+ private:
+  std::optional<py::array_t<bool>> allowed_;
 };
 
 /// devlearn.Record, built on the Python side.
@@ -198,6 +214,15 @@ struct type_caster<devlearn::Development> {
 template <>
 struct type_caster<devlearn::python::Idle> {
   PYBIND11_TYPE_CASTER(devlearn::python::Idle, make_caster<devlearn::Learner>::name);
+  bool load(handle source, bool convert);
+};
+
+/// Bools alone: of numbers nobody knows which ones mean true.
+template <>
+struct type_caster<devlearn::python::Mask> {
+  PYBIND11_TYPE_CASTER(devlearn::python::Mask,
+                       const_name("collections.abc.Sequence[bool] | "
+                                  "numpy.typing.NDArray[numpy.bool_] | None"));
   bool load(handle source, bool convert);
 };
 

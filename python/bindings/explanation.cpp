@@ -7,10 +7,14 @@ namespace devlearn::python {
 void bind_explanation(py::module_& m) {
   py::class_<Explanation>(m, "Explanation",
                           "Why motions are chosen in a situation: all that step 3 makes of its "
-                          "memory. Of N motions,\nn are effective. str() of it is a table.")
+                          "memory. Of N motions,\nn are effective. Where not every motion is "
+                          "allowed, n and n_R of the probabilities count\nthose that are. str() of "
+                          "it is a table.")
       .def_readonly("situation", &Explanation::situation, "The situation's id.")
       .def_readonly("memory", &Explanation::memory,
                     "What the choice goes by: lists, orientations, counts.")
+      .def_readonly("allowed", &Explanation::allowed,
+                    "N bools: whether each motion of M may be chosen.")
       .def_readonly("explore", &Explanation::explore, "Probability to explore, n_R / (n + n_R).")
       .def_readonly("exploit", &Explanation::exploit, "Probability to exploit, n / (n + n_R).")
       .def_readonly("exhausted", &Explanation::exhausted,
@@ -24,7 +28,8 @@ void bind_explanation(py::module_& m) {
       .def_readonly("op_curious", &Explanation::op_curious,
                     "n values: op of each, its own curiosity active, Eq. 7.")
       .def_readonly("winner", &Explanation::winner,
-                    "n values: the motion that wins where the curiosity of each is active.")
+                    "n values: the motion that wins where the curiosity of each is active; -1 of "
+                    "one that is not allowed.")
       .def("__str__", py::overload_cast<const Explanation&>(&to_text))
       .def("__repr__", [](const py::object& self) {
         return py::str("<devlearn.Explanation: situation {}, probability {}>")

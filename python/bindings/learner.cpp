@@ -59,6 +59,18 @@ bool type_caster<devlearn::python::Idle>::load(handle source, bool convert) {
   return true;
 }
 
+bool type_caster<devlearn::python::Mask>::load(handle source, bool) {
+  if (source.is_none()) return true;
+  const auto array = array::ensure(source);
+  PyErr_Clear();
+  if (!array || array.ndim() != 1 || !isinstance<array_t<bool>>(array)) {
+    throw devlearn::InvalidValue("allowed", devlearn::python::shown(source),
+                                 "None, or bools, one a motion");
+  }
+  value = devlearn::python::Mask(array_t<bool, array::c_style>::ensure(array));
+  return true;
+}
+
 bool type_caster<devlearn::Choice>::load(handle source, bool convert) {
   using Fields = std::tuple<devlearn::python::Whole<devlearn::python::MotionTag>, devlearn::Kind>;
   make_caster<Fields> fields;
@@ -182,7 +194,8 @@ void bind_results(py::module_& m) {
   py::native_enum<Kind>(m, "Kind", "enum.IntEnum", "Why a motion was chosen.")
       .value("EXPLORE", Kind::kExplore, "drawn from the motions not yet tried here")
       .value("EXPLOIT", Kind::kExploit, "winner of orientation and curiosity")
-      .value("EXHAUSTED", Kind::kExhausted, "all were tried and none is effective: any motion")
+      .value("EXHAUSTED", Kind::kExhausted,
+             "all that are allowed were tried and none is effective: any of these")
       .value("UNSTATED", Kind::kUnstated, "chosen by an agent that gives no reason")
       .finalize();
   py::native_enum<Event>(m, "Event", "enum.IntEnum", "What one outcome changed.")
@@ -246,9 +259,29 @@ void bind_learner(py::module_& m) {
             return std::make_shared<Learner>(config.value_or(LearnerConfig{}), seed.value);
           }),
           py::arg("config") = py::none(), py::arg("seed") = 0)
-      .def("choose", &choose, py::arg("situation"),
-           "Step 3: chooses a motion. Raises InvalidValue for a negative situation, or while an "
-           "earlier choice waits for learn() or cancel().")
+      .def(
+          "choose",
+          [](Idle self, Whole<SituationTag> situation, const Mask& allowed) {
+            return self->choose(situation.value, allowed);
+          },
+          py::arg("situation"), py::arg("allowed") = py::none(),
+          "Step 3: chooses a motion, among those `allowed`: bools, one a motion (None: every one). "
+          "The others are neither drawn nor explored nor won by. Raises InvalidValue for a "
+          "negative situation, while an earlier choice waits for learn() or cancel(), where no "
+          "motion is allowed, or for a situation that refuse_growth refuses.")
+      .def(
+          "best",
+          [](Idle self, Whole<SituationTag> situation) { return self->best(situation.value); },
+          py::arg("situation"),
+          "The effective motion of highest orientation, the first among equals; None where none "
+          "is effective. Draws and changes nothing.")
+      .def(
+          "forget",
+          [](Idle self, Whole<SituationTag> situation) { return self->forget(situation.value); },
+          py::arg("situation"),
+          "Forgets a situation, as if it had never been experienced; whether there was anything "
+          "to forget. The last one takes its place in the order of situations. Raises "
+          "InvalidValue for a negative situation, or while a choice waits in it.")
       .def(
           "learn",
           [](Idle self, double smf, std::optional<Whole<MotionTag>> motion) {
@@ -277,9 +310,12 @@ void bind_learner(py::module_& m) {
           "Creates nothing.")
       .def(
           "explain",
-          [](Idle self, Whole<SituationTag> situation) { return self->explain(situation.value); },
-          py::arg("situation"),
-          "Why motions are chosen in a situation as it is now, an Explanation. Changes nothing.")
+          [](Idle self, Whole<SituationTag> situation, const Mask& allowed) {
+            return self->explain(situation.value, allowed);
+          },
+          py::arg("situation"), py::arg("allowed") = py::none(),
+          "Why motions are chosen in a situation as it is now, of all or of those allowed: an "
+          "Explanation. Changes nothing.")
       .def_property_readonly(
           "last_choice", [](Idle self) { return self->last_choice(); },
           "Why the last choice came out as it did, learned from or not: a ChoiceTrace; None before "
@@ -289,8 +325,20 @@ void bind_learner(py::module_& m) {
           "Ids of the situations experienced, in that order: an int64 array.")
       .def(
           "reserve",
-          [](Idle self, Whole<ReserveTag> situations) { self->reserve(situations.value); },
-          py::arg("situations"), "Makes room for so many situations in all.")
+          [](Idle self, Whole<ReserveTag> situations, bool touch) {
+            self->reserve(situations.value, touch ? Pages::kTouched : Pages::kUntouched);
+          },
+          py::arg("situations"), py::arg("touch").noconvert() = false,
+          "Makes room for so many situations in all; touch: and takes the memory from the system "
+          "now, so that no later call waits for it.")
+      .def_property_readonly(
+          "room", [](Idle self) { return self->room(); }, "For how many situations there is room.")
+      .def(
+          "refuse_growth", [](Idle self, bool refuse) { self->refuse_growth(refuse); },
+          py::arg("refuse").noconvert() = true,
+          "Whether situations beyond the room are refused (by choose and update, with "
+          "InvalidValue; nothing has changed then) instead of room being made, which for a "
+          "million of them takes a fifth of a second. Not part of a snapshot.")
       .def(
           "save", [](Idle self, const py::object& path) { save(*self, file_path(path)); },
           py::arg("path"),

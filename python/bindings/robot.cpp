@@ -34,6 +34,18 @@ void bind_robot(py::module_& m) {
           "(next pose, collided): Eq. 1 exactly where the way is free, Box2D where there is "
           "something to touch. Raises InvalidValue.")
       .def(
+          "allowed",
+          [](const Robot& self, const Pose& pose) {
+            py::array_t<bool> allowed(static_cast<py::ssize_t>(self.def().steering_angles.size()));
+            self.allowed(pose, allowed.mutable_data());
+            return allowed;
+          },
+          py::arg("pose"),
+          "Which motions the robot can make from a pose, as its safety layer sees it: those that "
+          "keep its body further than safety_margin from obstacles and walls all along the way of "
+          "Eq. 1. Where none does, or there is no such layer, every one. A bool array. Raises "
+          "InvalidValue for a pose that is not finite.")
+      .def(
           "sonar",
           [](const Robot& self, const Pose& pose) {
             std::vector<double> echoes = [&] {

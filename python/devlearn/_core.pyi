@@ -432,10 +432,16 @@ class SituationMemory:
 class Explanation:
     """
     Why motions are chosen in a situation: all that step 3 makes of its memory. Of N motions,
-    n are effective. str() of it is a table.
+    n are effective. Where not every motion is allowed, n and n_R of the probabilities count
+    those that are. str() of it is a table.
     """
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
+    @property
+    def allowed(self) -> list[bool]:
+        """
+        N bools: whether each motion of M may be chosen.
+        """
     @property
     def curiosity(self) -> list[float]:
         """
@@ -484,7 +490,7 @@ class Explanation:
     @property
     def winner(self) -> list[int]:
         """
-        n values: the motion that wins where the curiosity of each is active.
+        n values: the motion that wins where the curiosity of each is active; -1 of one that is not allowed.
         """
 
 class ChoiceTrace:
@@ -554,21 +560,37 @@ class Learner:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: bytes) -> None: ...
+    def best(self, situation: typing.SupportsIndex) -> int | None:
+        """
+        The effective motion of highest orientation, the first among equals; None where none is effective. Draws and changes nothing.
+        """
     def cancel(self) -> None:
         """
         The waiting choice was not executed; nothing is learned. Raises InvalidValue where none waits.
         """
-    def choose(self, situation: typing.SupportsIndex) -> devlearn._types.Choice:
+    def choose(
+        self,
+        situation: typing.SupportsIndex,
+        allowed: collections.abc.Sequence[bool] | numpy.typing.NDArray[numpy.bool_] | None = None,
+    ) -> devlearn._types.Choice:
         """
-        Step 3: chooses a motion. Raises InvalidValue for a negative situation, or while an earlier choice waits for learn() or cancel().
+        Step 3: chooses a motion, among those `allowed`: bools, one a motion (None: every one). The others are neither drawn nor explored nor won by. Raises InvalidValue for a negative situation, while an earlier choice waits for learn() or cancel(), where no motion is allowed, or for a situation that refuse_growth refuses.
         """
     def copy(self) -> Learner:
         """
         An independent learner that goes on alike.
         """
-    def explain(self, situation: typing.SupportsIndex) -> Explanation:
+    def explain(
+        self,
+        situation: typing.SupportsIndex,
+        allowed: collections.abc.Sequence[bool] | numpy.typing.NDArray[numpy.bool_] | None = None,
+    ) -> Explanation:
         """
-        Why motions are chosen in a situation as it is now, an Explanation. Changes nothing.
+        Why motions are chosen in a situation as it is now, of all or of those allowed: an Explanation. Changes nothing.
+        """
+    def forget(self, situation: typing.SupportsIndex) -> bool:
+        """
+        Forgets a situation, as if it had never been experienced; whether there was anything to forget. The last one takes its place in the order of situations. Raises InvalidValue for a negative situation, or while a choice waits in it.
         """
     def learn(
         self,
@@ -582,9 +604,13 @@ class Learner:
         """
         All that it remembers, as a LearnerMemory: a tuple of arrays, which are copies.
         """
-    def reserve(self, situations: typing.SupportsIndex) -> None:
+    def refuse_growth(self, refuse: bool = True) -> None:
         """
-        Makes room for so many situations in all.
+        Whether situations beyond the room are refused (by choose and update, with InvalidValue; nothing has changed then) instead of room being made, which for a million of them takes a fifth of a second. Not part of a snapshot.
+        """
+    def reserve(self, situations: typing.SupportsIndex, touch: bool = False) -> None:
+        """
+        Makes room for so many situations in all; touch: and takes the memory from the system now, so that no later call waits for it.
         """
     def save(self, path: typing.Any) -> None:
         """
@@ -640,6 +666,11 @@ class Learner:
     def pending(self) -> devlearn._types.Choice | None:
         """
         The choice that waits for its outcome, or None.
+        """
+    @property
+    def room(self) -> int:
+        """
+        For how many situations there is room.
         """
     @property
     def seed(self) -> int:
@@ -875,6 +906,9 @@ class RobotDef:
         The sonars' field of view about the heading; in [0, 360] degrees.
     sonar_range
         How far a sonar hears, from the body's rim; in [0.01, 100] m.
+    safety_margin
+        What a safety layer keeps between body and obstacles: motions that would lead nearer are not
+        allowed; none for no such layer; in (0, 10] m, or none.
     """
     @staticmethod
     def fields() -> dict[str, typing.Any]:
@@ -904,6 +938,7 @@ class RobotDef:
         sonar_count: typing.SupportsIndex = 5,
         sonar_fov: typing.SupportsFloat | typing.SupportsIndex = 180.0,
         sonar_range: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+        safety_margin: typing.SupportsFloat | typing.SupportsIndex | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -923,6 +958,11 @@ class RobotDef:
     def radius(self) -> float:
         """
         r: radius of the body; in [0.01, 10] m.
+        """
+    @property
+    def safety_margin(self) -> float | None:
+        """
+        What a safety layer keeps between body and obstacles: motions that would lead nearer are not allowed; none for no such layer; in (0, 10] m, or none.
         """
     @property
     def sample_time(self) -> float:
@@ -965,6 +1005,10 @@ class Robot:
     The robot's body in a world: how it moves and what its sonars hear. A step is a pure function of (world, pose, motion).
     """
     def __init__(self, world: World, robot: RobotDef | None = None) -> None: ...
+    def allowed(self, pose: collections.abc.Sequence[float]) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        Which motions the robot can make from a pose, as its safety layer sees it: those that keep its body further than safety_margin from obstacles and walls all along the way of Eq. 1. Where none does, or there is no such layer, every one. A bool array. Raises InvalidValue for a pose that is not finite.
+        """
     def sonar(self, pose: collections.abc.Sequence[float]) -> numpy.ndarray:
         """
         Echo distances from the body's rim, right to left [m]; sonar_range where nothing is heard. A float64 array of sonar_count values.
@@ -1081,6 +1125,11 @@ class Observation:
     What an agent knows when it chooses.
     """
     def __repr__(self) -> str: ...
+    @property
+    def allowed(self) -> numpy.typing.NDArray[numpy.bool] | None:
+        """
+        Of these, the motions that the robot can make: bools, one a motion; None for every one.
+        """
     @property
     def clearance(self) -> float:
         """

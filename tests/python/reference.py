@@ -60,21 +60,24 @@ class Reference:
         exponent = self.c1 * (times_learned - self.c2)
         return 0.0 if exponent > 700 else 1 / (1 + math.exp(exponent))
 
-    def choose(self, situation):
+    def choose(self, situation, allowed=None):
         s = self.at(situation)
-        n, n_r = len(s.effective), len(s.unexplored)
+        allowed = [m for m in range(self.motion_count) if allowed is None or allowed[m]]
+        effective = [m for m in s.effective if m in allowed]
+        unexplored = [m for m in s.unexplored if m in allowed]
+        n, n_r = len(effective), len(unexplored)
         if n + n_r == 0:
-            return self.draw(self.motion_count), EXHAUSTED
+            return allowed[self.draw(len(allowed))], EXHAUSTED
         drawn = self.draw(n + n_r)
         if drawn < n_r:
-            return s.unexplored[drawn], EXPLORE
-        curious = s.effective[drawn - n_r]
+            return unexplored[drawn], EXPLORE
+        curious = effective[drawn - n_r]
 
         def op(motion):  # Eq. 7
             active = self.curiosity(s.times_learned[motion]) if motion == curious else 0.0
             return self.sigma * s.orientation[motion] + (1 - self.sigma) * active
 
-        return max(s.effective, key=op), EXPLOIT  # the first among equals
+        return max(effective, key=op), EXPLOIT  # the first among equals
 
     # Steps 4-5
 

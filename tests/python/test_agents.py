@@ -670,3 +670,75 @@ def test_the_guides_agent_runs_and_is_saved_as_it_stands(tmp_path, monkeypatch):
     trial, again = names["trial"], names["again"]
     assert (again.agent.values == trial.agent.values).all()
     assert differences(again.run(200), trial.run(200)) == []
+
+
+# --- motions that are not allowed ---
+
+
+def cautious(margin, agent=None):
+    robot = devlearn.RobotDef(safety_margin=margin)
+    return Trial(World.load("clutter"), TrialConfig(robot=robot), seed=5, agent=agent)
+
+
+@pytest.mark.parametrize("agent", [None, RandomAgent(5)], ids=["learner", "random"])
+def test_a_safety_margin_is_kept_wherever_a_motion_can_keep_it(agent):
+    trial = cautious(0.02, copy.copy(agent))
+    robot = devlearn.Robot(trial.world, trial.config.robot)
+    collisions = refused_somewhere = 0
+    for _ in range(3000):
+        allowed = robot.allowed(trial.pose)
+        step = trial.step()
+        assert allowed[step.motion]
+        if not allowed.all():
+            refused_somewhere += 1
+            assert not step.collided
+            assert trial.world.clearance(*trial.pose[:2], walls_count=True) > 0.1 + 0.02
+        collisions += step.collided
+    assert refused_somewhere > 100
+    # The same robot without such a layer bumps into things often.
+    free = Trial(trial.world, seed=5, agent=copy.copy(agent)).run(3000)
+    assert 5 * collisions < free.collided.sum()
+
+
+def test_where_no_motion_keeps_the_margin_every_one_is_allowed():
+    world = World(width=1, height=1, start=(0.5, 0.5, 0), target=(0.2, 0.2))
+    robot = devlearn.Robot(world, devlearn.RobotDef(safety_margin=0.5))
+    assert robot.allowed((0.5, 0.5, 0)).all()
+    assert devlearn.Robot(world).allowed((0.15, 0.5, 180)).all()
+    with pytest.raises(devlearn.InvalidValue, match="pose"):
+        robot.allowed((float("nan"), 0.5, 0))
+
+
+def test_a_robot_that_says_what_it_can_do_has_one_history_in_steps_calls_and_when_resumed():
+    whole, resumed, stepped = cautious(0.05), cautious(0.05), cautious(0.05)
+    motions = list(whole.run(400).motion)
+    first = list(resumed.run(150).motion)
+    resumed = Trial.from_bytes(resumed.to_bytes())
+    assert resumed.config.robot.safety_margin == 0.05
+    assert first + list(resumed.run(250).motion) == motions
+    assert [stepped.step().motion for _ in range(400)] == motions
+    assert whole.to_bytes() == resumed.to_bytes() == stepped.to_bytes()
+
+
+def test_an_agent_sees_what_is_allowed_and_is_refused_what_is_not():
+    seen = []
+
+    class Last:
+        def choose(self, observation):
+            seen.append(observation)
+            return 2
+
+        def observe(self, outcome):
+            pass
+
+    robot = devlearn.RobotDef(safety_margin=0.05)
+    world = World(width=2, height=2, start=(1, 1, 180), target=(0.2, 0.2))
+    trial = Trial(world, TrialConfig(robot=robot), agent=Last())
+    with pytest.raises(devlearn.InvalidValue, match="agent's motion: got 2; expected one that"):
+        trial.run(1000)
+    pose = trial.pose
+    del trial
+    assert seen[0].allowed is None
+    assert seen[-1].allowed.dtype == bool
+    assert not seen[-1].allowed[2]
+    assert list(seen[-1].allowed) == list(devlearn.Robot(world, robot).allowed(pose))

@@ -51,6 +51,7 @@ EXPECTED = {
         "sonar_count": (NO, NO, WHOLE.format(0, 720), 5),
         "sonar_fov": (NO, "degrees", "in [0, 360] degrees", 180.0),
         "sonar_range": (NO, "m", "in [0.01, 100] m", 2.0),
+        "safety_margin": (NO, "m", "in (0, 10] m, or none", None),
     },
     TrialConfig: {
         "learner": (NO, NO, "a LearnerConfig", LearnerConfig()),

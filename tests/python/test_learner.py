@@ -405,7 +405,7 @@ def test_what_is_no_whole_number_is_a_type_error(nonsense):
     ("call", "shown"),
     [
         (lambda it: it.choose(), "choose"),
-        (lambda it: it.choose(3, 4), "choose"),
+        (lambda it: it.choose(3, None, 4), "choose"),
         (lambda it: it.choose(3, situation=3), "choose"),
         (lambda it: it.choose(3, place=3), "choose"),
         (lambda it: it.choose([3]), "choose"),
@@ -549,3 +549,90 @@ def test_the_memory_in_use_is_told_with_what_is_spare():
     assert 82 * 10_000 <= learner.memory_use.used <= 96 * 10_000
     learner.reserve(100_000)
     assert learner.memory_use.spare >= 88 * 90_000
+
+
+# --- motions that are not allowed, what is best, what is forgotten ---
+
+
+def test_motions_that_are_not_allowed_are_never_named():
+    learner = Learner(seed=1)
+    for allowed in ([True, False, False, True, False], np.array([0, 1, 1, 0, 0], bool)):
+        for i in range(300):
+            assert allowed[learner.choose(i % 5, allowed).motion]
+            assert learner.last_choice.explanation.allowed == list(allowed)
+            learner.learn(0.3 - (i % 3) * 0.2)
+
+
+@pytest.mark.parametrize(
+    "allowed",
+    [
+        [1, 0, 1, 0, 1],
+        [True, 0.0, True, True, True],
+        "yes!!",
+        3,
+        [[True] * 5],
+        [None] * 5,
+        object(),
+    ],
+)
+def test_what_is_allowed_must_be_bools(allowed):
+    learner = Learner()
+    with pytest.raises(
+        devlearn.InvalidValue, match="^allowed: got .*; expected None, or bools, one a motion"
+    ):
+        learner.choose(1, allowed)
+    with pytest.raises(devlearn.InvalidValue, match="^allowed: "):
+        learner.explain(1, allowed)
+    assert learner.situations_experienced == 0
+
+
+@pytest.mark.parametrize(
+    ("allowed", "message"),
+    [([False] * 5, "allowed: got no motion"), ([True] * 4, "allowed: got 4 values; expected 5")],
+)
+def test_what_allows_nothing_or_is_not_of_its_motions_is_refused(allowed, message):
+    learner = Learner()
+    with pytest.raises(devlearn.InvalidValue, match=message):
+        learner.choose(1, allowed)
+    assert learner.pending is None
+    assert learner.situations_experienced == 0
+
+
+def test_the_best_motion_needs_no_draw():
+    learner = Learner(seed=2)
+    assert learner.best(7) is None
+    learner.update(7, 3, 1.0)
+    learner.update(7, 1, 1.0)
+    learner.update(7, 1, 5.0)
+    before = learner.to_bytes()
+    assert learner.best(7) == 1
+    assert learner.to_bytes() == before
+
+
+def test_what_is_forgotten_is_as_if_never_experienced():
+    learner = Learner()
+    for situation in (4, 5, 6):
+        learner.update(situation, 0, 1.0)
+    assert learner.forget(4)
+    assert not learner.forget(4)
+    assert list(learner.situations()) == [6, 5]
+    assert (learner.explored_count, learner.effective_count) == (2, 2)
+    assert learner.situation(4).unexplored == [0, 1, 2, 3, 4]
+    learner.choose(5)
+    with pytest.raises(devlearn.InvalidValue, match="in which a choice waits"):
+        learner.forget(5)
+
+
+def test_a_learner_that_may_not_grow_refuses_a_situation_too_many():
+    learner = Learner()
+    learner.reserve(10, touch=True)
+    learner.refuse_growth()
+    room = learner.room
+    for situation in range(room):
+        learner.update(situation, 0, 1.0)
+    with pytest.raises(
+        devlearn.InvalidValue, match=f"situations: got {room + 1}; expected at most {room}"
+    ):
+        learner.choose(room)
+    assert learner.forget(0)
+    learner.choose(room)

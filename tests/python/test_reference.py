@@ -120,3 +120,24 @@ def test_the_learner_draws_from_the_stream_agent_of_its_seed():
     for situation in range(1000):  # each new, so that every choice explores 0 ... 4
         assert learner.choose(situation).motion == draws.index(5)
         learner.cancel()
+
+
+def test_choices_among_the_allowed_motions_agree_with_the_reference():
+    generator = random.Random(7)
+    kinds = collections.Counter()
+    for seed in range(5):
+        learner = devlearn.Learner(seed=seed)
+        plain = reference.Reference(devlearn.Random(seed, "agent").index)
+        for _ in range(1500):
+            situation = generator.randrange(4)
+            allowed = [generator.random() < 0.5 for _ in range(5)]
+            if not any(allowed):
+                continue
+            choice = learner.choose(situation, allowed)
+            assert tuple(choice) == plain.choose(situation, allowed)
+            kinds[choice.kind] += 1
+            smf = generator.uniform(-1, 1)
+            learner.learn(smf)
+            plain.learn(situation, choice.motion, smf)
+            check_same(learner, plain.at(situation), situation)
+    assert len(kinds) == 3

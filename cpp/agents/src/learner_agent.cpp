@@ -15,7 +15,7 @@ LearnerAgent::LearnerAgent(const AgentState& state, const std::string& source)
     : learner_(std::make_shared<Learner>(learner_of({state.texts, state.arrays}, source))) {}
 
 Choice LearnerAgent::choose(const Observation& observation) {
-  return learner_->choose(observation.situation);
+  return learner_->choose(observation.situation, observation.allowed);
 }
 
 Development LearnerAgent::observe(const Outcome& outcome) { return learner_->learn(outcome.smf); }

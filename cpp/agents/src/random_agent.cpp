@@ -10,8 +10,13 @@ RandomAgent::RandomAgent(const AgentState& state, const std::string& source)
     : random_(random_of({state.texts, state.arrays}, source)) {}
 
 Choice RandomAgent::choose(const Observation& observation) {
-  const auto motions = static_cast<std::uint32_t>(observation.motion_count);
-  return {static_cast<int>(random_.index(motions)), Kind::kUnstated};
+  const AllowedMotions allowed = observation.allowed;
+  int motions = 0;
+  for (int motion = 0; motion < observation.motion_count; ++motion) motions += allowed(motion);
+  auto draw = random_.index(static_cast<std::uint32_t>(motions));
+  int motion = 0;
+  while (!allowed(motion) || draw-- > 0) ++motion;
+  return {motion, Kind::kUnstated};
 }
 
 Development RandomAgent::observe(const Outcome&) { return {}; }

@@ -47,7 +47,8 @@ class EntryWriter {
   safetensors::Contents& contents_;
 };
 
-/// The reverse. Throws FileError for an entry that is missing or of another kind.
+/// The reverse. Throws FileError for an entry that is of another kind, or missing where it may not
+/// be none.
 class EntryReader {
  public:
   EntryReader(const safetensors::Contents& contents, const std::string& source)

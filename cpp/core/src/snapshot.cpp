@@ -85,7 +85,7 @@ void EntryReader::operator()(const std::string& name, bool& value) const {
 }
 void EntryReader::operator()(const std::string& name, std::optional<double>& value) const {
   double number = 0.0;
-  (*this)(name, number);
+  if (has(name)) (*this)(name, number);
   value = number == 0.0 ? std::nullopt : std::optional(number);
 }
 void EntryReader::operator()(const std::string& name, std::vector<double>& values) const {

@@ -11,6 +11,7 @@
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
+#include "world/surfaces.hpp"
 
 namespace devlearn {
 namespace {
@@ -76,6 +77,21 @@ Robot::Move Robot::step(const Pose& pose, int motion) const {
   }
   // Deeper than the slop even so: the body stays where it was, which is no deeper.
   return {{pose.x, pose.y, heading}, true};
+}
+
+bool Robot::allowed(const Pose& pose, bool* allowed) const {
+  if (!is_finite(pose)) require_place(pose);
+  const std::size_t motions = def_.steering_angles.size();
+  std::fill_n(allowed, motions, true);
+  if (!def_.safety_margin) return false;
+  const double room = def_.radius + *def_.safety_margin;
+  for (std::size_t motion = 0; motion < motions; ++motion) {
+    const Pose end = driven(def_, pose, heading_after(def_, pose, static_cast<int>(motion)));
+    allowed[motion] = world_->surfaces().keep_clear_of({pose.x, pose.y}, {end.x, end.y}, room);
+  }
+  bool* const last = allowed + motions;
+  if (std::find(allowed, last, true) == last) std::fill(allowed, last, true);
+  return std::find(allowed, last, false) != last;
 }
 
 void Robot::sonar(const Pose& pose, double* echoes) const {

@@ -119,7 +119,8 @@ Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
       seed_(seed),
       robot_(world, config.robot),
       grid_(grid_over(world, config)),
-      agent_(std::move(agent)) {
+      agent_(std::move(agent)),
+      allowed_(std::make_unique<bool[]>(config.robot.steering_angles.size())) {
   if (!agent_) throw InvalidValue("Trial.agent", "null", "an agent");
   if (const auto paper = learner()) {
     const int motions = paper->config().motion_count;
@@ -143,7 +144,7 @@ Step Trial::tick() {
   open_round();
   // world -> sense -> situation: as it was when the robot came here
   const Observation before = here_;
-  // -> choice (Eq. 5 and 7)
+  // -> choice (Eq. 5 and 7), of what the robot can make
   const Choice choice = chosen();
   // -> motion (Eq. 1)
   const Robot::Move moved = robot_.step(before.pose, choice.motion);
@@ -185,12 +186,24 @@ double Trial::clearance(const Pose& pose) const {
   return world().clearance({pose.x, pose.y}, config_.walls_count);
 }
 
-// The agent's choice; one outside M is refused.
+// What the robot can make of its motions here.
+AllowedMotions Trial::allowed() const {
+  if (!robot_.allowed(here_.pose, allowed_.get())) return {};
+  return {allowed_.get(), static_cast<std::size_t>(here_.motion_count)};
+}
+
+// The agent's choice; one outside M, or that is not allowed, is refused.
 Choice Trial::chosen() {
+  here_.allowed = allowed();
   const Choice choice = agent_->choose(here_);
   if (choice.motion < 0 || choice.motion >= here_.motion_count) {
     agent_->cancel();
     require_count("agent's motion", choice.motion, 0, here_.motion_count - 1);
+  }
+  if (!here_.allowed(choice.motion)) {
+    agent_->cancel();
+    throw InvalidValue("agent's motion", std::to_string(choice.motion),
+                       "one that the robot's safety layer allows, see Observation.allowed");
   }
   return choice;
 }

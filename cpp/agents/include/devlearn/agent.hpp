@@ -23,6 +23,7 @@ struct Observation {
   double clearance = 0.0;      ///< d_o [m]
   double estimate = 0.0;       ///< cost to go at the least: d_g / (v t_s), in steps; at least 0
   int motion_count = 0;        ///< choose one in 0 ... motion_count - 1
+  AllowedMotions allowed;      ///< of these; valid during the call
 };
 
 /// What an agent is told about the motion it chose.

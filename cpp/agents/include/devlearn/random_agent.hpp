@@ -9,7 +9,8 @@
 
 namespace devlearn {
 
-/// Uniformly random motions: what learning is measured against. It states the kind kUnstated.
+/// Uniformly random motions, of those allowed: what learning is measured against. It states the
+/// kind kUnstated.
 class RandomAgent final : public Agent {
  public:
   /// In a state, and in files.

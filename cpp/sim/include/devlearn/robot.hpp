@@ -21,6 +21,7 @@ struct RobotDef {
   int sonar_count = 5;
   double sonar_fov = 180.0;
   double sonar_range = 2.0;
+  std::optional<double> safety_margin;
 
   /// What each of them is, by name: symbol, range, meaning.
   static constexpr auto fields() {
@@ -40,7 +41,11 @@ struct RobotDef {
         field("sonar_fov", &R::sonar_fov, "", closed(0.0, 360.0, "degrees"),
               "the sonars' field of view about the heading"),
         field("sonar_range", &R::sonar_range, "", closed(0.01, 100.0, "m"),
-              "how far a sonar hears, from the body's rim"));
+              "how far a sonar hears, from the body's rim"),
+        field(
+            "safety_margin", &R::safety_margin, "", or_none(above(0.0, 10.0, "m")),
+            "what a safety layer keeps between body and obstacles: motions that would lead nearer "
+            "are not allowed; none for no such layer"));
   }
 
   /// Throws InvalidValue unless every field lies in its range and a step is at most 1 m.
@@ -84,6 +89,12 @@ class Robot {
   /// from this pose. The heading always ends as commanded. Throws InvalidValue for a motion
   /// outside M or a pose that require_place refuses.
   Move step(const Pose& pose, int motion) const;
+
+  /// Which motions the robot can make from a pose, as its safety layer sees it: those that keep its
+  /// body further than safety_margin from obstacles and walls all along the way of Eq. 1. Where
+  /// none does, or there is no such layer, every one. `allowed` has room for a bool a motion;
+  /// whether any is false. Throws InvalidValue for a pose that is not finite.
+  bool allowed(const Pose& pose, bool* allowed) const;
 
   /// Echo distances from the body's rim [m], one for each sonar from right to left, by raycast;
   /// sonar_range where nothing is heard, 0 where something touches the rim. `echoes` has room for

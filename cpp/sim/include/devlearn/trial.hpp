@@ -149,6 +149,7 @@ class Trial {
   bool arrived_at(const Observation& place) const noexcept {
     return place.goal_distance <= config_.goal_radius;
   }
+  AllowedMotions allowed() const;
   Choice chosen();
   Outcome outcome_of(const Observation& after, double smf, bool collided) const;
   void put(const Pose& pose);
@@ -164,6 +165,7 @@ class Trial {
   SituationGrid grid_;
   std::shared_ptr<Agent> agent_;
   Observation here_;
+  std::unique_ptr<bool[]> allowed_;  // a bool a motion
   std::int32_t round_ = 0;
   bool round_open_ = false;
   bool under_way_ = false;
