@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import os
+import socket
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from . import _core
@@ -21,6 +26,55 @@ def made_folder(path: str | os.PathLike[str]) -> Path:
     if not os.access(folder, os.W_OK | os.X_OK):
         raise FileError(str(folder), "", "no permission to write", allowed)
     return folder
+
+
+LOCK = ".devlearn-lock"
+
+
+@contextmanager
+def owned_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """The folder, made where it is missing, for this process alone while the context lasts.
+
+    The lock is the system's and ends with its process, however that ends. Raises FileError, saying
+    who has it, where another process does.
+    """
+    folder = made_folder(path)
+    lock = folder / LOCK
+    while True:
+        try:
+            held = os.open(lock, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+        except OSError as error:
+            raise FileError(str(lock), "", error.strerror, "a file that can be made") from error
+        try:
+            fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            owner = os.pread(held, 200, 0).decode(errors="replace") or "another process"
+            os.close(held)
+            raise FileError(
+                str(folder), "", f"in use by {owner}",
+                "a folder that nobody else writes to: wait for it, or choose another --output",
+            ) from error  # fmt: skip
+        except OSError:  # a file system without locks: as good as it can be had there
+            break
+        # Whoever had it may have removed the file between our opening and our locking it.
+        if _is_same_file(held, lock):
+            break
+        os.close(held)
+    try:
+        since = time.strftime("%Y-%m-%d %H:%M:%S")
+        os.truncate(held, 0)
+        os.write(held, f"process {os.getpid()} on {socket.gethostname()} since {since}".encode())
+        yield folder
+    finally:
+        lock.unlink(missing_ok=True)
+        os.close(held)
+
+
+def _is_same_file(held: int, path: Path) -> bool:
+    try:
+        return os.path.samestat(os.fstat(held), os.lstat(path))
+    except FileNotFoundError:
+        return False
 
 
 def code_fingerprint() -> str:

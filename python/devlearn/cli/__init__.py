@@ -6,31 +6,38 @@ These modules import nothing of the package before they are called: --help shoul
 from __future__ import annotations
 
 import argparse
-import os
-import sys
+import signal
 from collections.abc import Sequence
 
-from . import reproduce, run
+from . import console, reproduce, run
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; returns its exit code: 0, 1 for a refusal, 130 after Ctrl-C."""
-    options = _parser().parse_args(arguments)
-    from ..errors import InvalidValue, MissingExtra
+    """Run the command line; returns its exit code.
 
+    0 where all that was asked for is written, whether or not anybody could read what is said of it;
+    1 for a refusal; 2 for a line that cannot be read; 130 after Ctrl-C, 143 after SIGTERM.
+    """
+    console.prepare()
     try:
-        code = int(options.verb(options))
-        sys.stdout.flush()
-        return code
-    except BrokenPipeError:  # who read the output has left, as `head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
-    except (InvalidValue, MissingExtra, OSError) as error:
-        print(f"devlearn: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("devlearn: stopped", file=sys.stderr)
-        return 130
+        options = _parser().parse_args(arguments)
+        from ..errors import InvalidValue, MissingExtra
+
+        try:
+            return int(options.verb(options))
+        except (InvalidValue, MissingExtra, OSError) as error:
+            console.warn(f"devlearn: {error}")
+            return 1
+    except KeyboardInterrupt as stop:
+        console.warn("devlearn: stopped")
+        return 128 + (stop.args[0] if stop.args else signal.SIGINT)
+
+
+def command() -> int:
+    """``devlearn`` as a program: like main, and then there is nothing left to stop."""
+    code = main()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    return code
 
 
 def _parser() -> argparse.ArgumentParser:

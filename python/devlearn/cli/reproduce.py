@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 from typing import Any
+
+from .console import say, warn
 
 
 def add_to(verbs: Any) -> None:
@@ -43,34 +44,29 @@ def _main(options: argparse.Namespace) -> int:
         from ..paper.figures import draw_figure
 
         for path in draw_figure(options.output, options.figure):
-            print(path)
+            say(path)
         return 0
     from ..paper import reproduce as reproduction
 
     try:
         verdicts = reproduction.reproduce(
-            options.output, seeds=options.seeds, workers=options.workers, say=_say
+            options.output, seeds=options.seeds, workers=options.workers, say=say
         )
     except KeyboardInterrupt:
-        print(f"what is finished is kept in {options.output}; the same command goes on from there",
-              file=sys.stderr)  # fmt: skip
+        warn(f"what is finished is kept in {options.output}; the same command goes on from there")
         raise
     for preset, judged in verdicts.items():
         held = sum(verdict.holds for verdict in judged)
-        print(f"preset {preset}: {held} of {len(judged)} claims hold")
+        say(f"preset {preset}: {held} of {len(judged)} claims hold")
         for verdict in judged:
             fixed = verdict.claim.get("by_definition", {}).get("part")
             criterion = verdict.claim["criterion"]
-            print(
+            say(
                 f"  {'holds   ' if verdict.holds else 'does not'}  {verdict.claim['id']:28} "
                 f"{verdict.figure.value:10.4g}  {criterion['op']} {criterion['bound']:<6g}  "
                 f"control {verdict.control.value:10.4g}"
                 f"{'  (holds, too)' if verdict.control_holds else ''}"
                 f"{f'  ({fixed}: by definition)' if fixed else ''}"
             )
-    print(f"report: {Path(options.output) / 'report.html'}")
+    say(f"report: {Path(options.output) / 'report.html'}")
     return 0
-
-
-def _say(text: str) -> None:
-    print(text, flush=True)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .console import say, warn
+
 if TYPE_CHECKING:
-    from .._core import TrialConfig
+    from .._core import TrialConfig, World
     from ..paper.schedule import Run, Schedule
 
 _DESCRIPTION = """\
@@ -76,6 +77,9 @@ def add_to(verbs: Any) -> None:
     parser.add_argument(
         "--output", default="out/run", metavar="DIR", help="folder to write (default: %(default)s)"
     )
+    parser.add_argument(
+        "--overwrite", action="store_true", help="even where the folder holds another run"
+    )
     parser.set_defaults(verb=_main)
 
 
@@ -85,10 +89,9 @@ def _shipped() -> list[str]:
 
 def _main(options: argparse.Namespace) -> int:
     from .. import _core
-    from .._files import made_folder
+    from .._files import owned_folder
     from ..errors import InvalidValue
-    from ..paper import schedule, survival
-    from ..record import written_aside
+    from ..paper import schedule
 
     if options.save_every is not None and not 1 <= options.save_every <= 2**40:
         raise InvalidValue("--save-every", options.save_every, "a whole number in [1, 2^40]")
@@ -100,54 +103,74 @@ def _main(options: argparse.Namespace) -> int:
         config = _core.load_config(options.config)
     config = _changed(config, options.set)
     _core.Trial(world, config, options.seed)  # refuses what cannot run
-    folder = made_folder(options.output)
+    with owned_folder(options.output) as folder:
+        made = _made(folder, world, config, planned, options)
+    for line in _told(made, world.name or options.world, planned):
+        say(line)
+    say(f"written: {folder}{os.sep}")
+    return 0
+
+
+def _made(
+    folder: Path,
+    world: World,
+    config: TrialConfig,
+    planned: Schedule,
+    options: argparse.Namespace,
+) -> Run:
+    """Runs, and writes all there is to write."""
+    from ..paper import schedule, survival
+    from ..record import written_aside
+
+    kinds = ("npz", "csv") if options.csv else ("npz",)
+    names = ("free_1", "free_2", "paths")
+    whence = survival.begin(
+        folder, world, config, options.seed, {**planned.to_dict(), "echoes": options.echoes},
+        files=[f"{name}.{kind}" for name in names for kind in kinds] + ["rounds.csv"],
+        overwrite=options.overwrite,
+    )  # fmt: skip
     try:
         trial, whole = survival.run_to_the_end(
-            folder, world, config, options.seed, planned, options.echoes, options.save_every
+            folder, world, config, options.seed, planned, whence, options.echoes, options.save_every
         )
     except KeyboardInterrupt:
-        print(f"what is finished is kept in {folder}; the same command goes on from there",
-              file=sys.stderr)  # fmt: skip
+        warn(f"what is finished is kept in {folder}; the same command goes on from there")
         raise
     made = schedule.run_of(whole, trial)
-    records = {"free_1": made.first, "free_2": made.second, "paths": made.paths}
-    for name, record in records.items():
+    for name, record in zip(names, (made.first, made.second, made.paths)):
         record.save(folder / f"{name}.npz")
         if options.csv:
             record.to_csv(folder / f"{name}.csv")
-
-    _tell(made, world.name or options.world, planned)
     with written_aside(folder / "rounds.csv", "w") as file:
         file.write("round,steps,arrived\n")
         file.writelines(
             f"{r['round']},{r['steps']},{int(r['arrived'])}\n" for r in made.paths.rounds
         )
     _draw(folder, made)
-    survival.forget(folder)
-    print(f"written: {folder}{os.sep}")
-    return 0
+    survival.end(folder, whence)
+    return made
 
 
-def _tell(made: Run, world: str, planned: Schedule) -> None:
+def _told(made: Run, world: str, planned: Schedule) -> Iterator[str]:
     from ..paper import measures
 
-    print(f"world {world}, seed {made.trial.seed}")
+    yield f"world {world}, seed {made.trial.seed}"
     for i, record in enumerate((made.first, made.second), 1):
         arrival = measures.first_arrival(record) if len(record) else None
         reached = "the target was never reached"
         if arrival is not None:
             reached = f"target reached at step {arrival}"
-        print(f"free learning, round {i}: {reached}")
+        yield f"free learning, round {i}: {reached}"
     steps, arrived = made.paths.rounds["steps"], made.paths.rounds["arrived"]
     if len(steps):
         settled = measures.settled_round(made.paths)
-        print(
+        yield (
             f"path learning: {arrived.sum()} of {len(steps)} rounds arrived; "
             f"first {steps[0]} steps, last {steps[-1]}; "
             + ("not settled" if settled is None else f"settled from round {settled} on")
         )
     if len(steps) < planned.rounds:
-        print(f"ended early: the last {planned.hopeless} rounds never arrived (--hopeless)")
+        yield f"ended early: the last {planned.hopeless} rounds never arrived (--hopeless)"
 
 
 def _draw(folder: Path, made: Run) -> None:
@@ -156,7 +179,7 @@ def _draw(folder: Path, made: Run) -> None:
     try:
         from ..paper.figures import draw_run, save_figure
     except MissingExtra as error:
-        print(f"no figures: {error}", file=sys.stderr)
+        warn(f"no figures: {error}")
         return
     save_figure(folder, draw_run(made.trial, made.paths))
 

@@ -9,6 +9,7 @@ import multiprocessing
 import os
 import signal
 import threading
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
@@ -28,13 +29,19 @@ Result = dict[str, Any]
 
 
 class Journal:
-    """Finished runs in a file of JSON lines, found again by what was run and by which code."""
+    """Finished runs in a file of JSON lines, found again by what was run and by which code.
+
+    For one process at a time. Each line has a checksum: what is damaged is run again.
+    """
 
     def __init__(self, path: Path) -> None:
         """Opens or makes it. Raises FileError."""
         self._path = path
         self._code = code_fingerprint()
         self._found: dict[str, Result] = {}
+        self._flushed = 0.0
+        self.damaged = 0
+        """How many lines were no whole entries."""
         made_folder(path.parent)
         try:
             if path.exists():
@@ -51,9 +58,13 @@ class Journal:
         for line in whole.splitlines():
             try:
                 entry = json.loads(line)
-                self._found[entry["key"]] = entry["result"]
-            except (ValueError, KeyError, TypeError):
-                continue
+                key, result, checksum = entry["key"], entry["result"], entry["checksum"]
+            except (ValueError, KeyError, TypeError, RecursionError):
+                key, result, checksum = None, None, None
+            if isinstance(key, str) and isinstance(result, dict) and checksum == _sum(key, result):
+                self._found[key] = result
+            else:
+                self.damaged += 1
 
     def key(self, job: Job) -> str:
         """What a job is found by."""
@@ -65,15 +76,26 @@ class Journal:
         return self._found.get(self.key(job))
 
     def add(self, job: Job, result: Result) -> None:
-        """Keeps a result, at once and on the disk."""
+        """Keeps a result, at once in the file and within a second on the disk."""
         key = self.key(job)
         self._found[key] = result
-        self._file.write(json.dumps({"key": key, "result": result}).encode() + b"\n")
+        entry = {"key": key, "result": result, "checksum": _sum(key, result)}
+        self._file.write(json.dumps(entry).encode() + b"\n")
         self._file.flush()
+        # A kill of the process loses nothing of it, a power cut what came in the last second.
+        if time.monotonic() - self._flushed > 1.0:
+            os.fsync(self._file.fileno())
+            self._flushed = time.monotonic()
 
     def close(self) -> None:
-        """Closes the file."""
-        self._file.close()
+        """Closes the file, all of it on the disk."""
+        if not self._file.closed:
+            os.fsync(self._file.fileno())
+            self._file.close()
+
+
+def _sum(key: str, result: Result) -> str:
+    return hashlib.sha256(json.dumps([key, result], sort_keys=True).encode()).hexdigest()[:16]
 
 
 def run_all(

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import _core
+from .._files import owned_folder
 from ..errors import InvalidValue
 from ..experiments.runs import Journal, run_all
 from ..record import provenance_of, written_aside
@@ -33,14 +34,21 @@ def reproduce(
     """Run section VI over ``seeds`` seeds and write figures, tables, numbers and report.html.
 
     What is finished is kept in ``runs.jsonl``: stopped, it goes on from there. Returns the verdicts
-    by preset. Raises InvalidValue for seeds outside 1 ... 1000, FileError where it cannot write.
+    by preset. Raises InvalidValue for seeds outside 1 ... 1000, FileError where it cannot write or
+    another process does.
     """
     if not 1 <= seeds <= 1000:
         raise InvalidValue("seeds", seeds, "a whole number in [1, 1000]")
+    with owned_folder(output) as folder:
+        return _reproduce(folder, seeds, workers, say)
+
+
+def _reproduce(folder: Path, seeds: int, workers: int | None, say: Say) -> dict[str, list[Verdict]]:
     began = time.monotonic()
-    folder = Path(output)
     world = _core.World.load("paper")
     journal = Journal(folder / "runs.jsonl")
+    if journal.damaged:
+        say(f"{journal.damaged} damaged entries of runs.jsonl are run again")
     try:
         results = _run(world, range(1, seeds + 1), journal, workers, say)
     finally:

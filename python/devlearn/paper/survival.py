@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
+import json
 import signal
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -14,13 +14,75 @@ from typing import Any
 from .. import _core
 from .._files import code_fingerprint
 from ..errors import FileError
-from ..record import Record, provenance_of
+from ..record import Record, provenance_of, written_aside
 from .schedule import Schedule
 
+ABOUT = "run.json"  # which run the folder is of, and whether it is finished
 STATE = "state.safetensors"  # a trial's snapshot, with the record so far
 AT_ONCE = 1000  # steps between two looks at the clock and for Ctrl-C
 SECONDS = 10.0  # between two saves
 SHARE = 0.05  # of the time at most that saving may take
+
+
+def begin(
+    folder: Path,
+    world: _core.World,
+    config: _core.TrialConfig,
+    seed: int,
+    planned: Mapping[str, Any],
+    *,
+    files: Sequence[str] = (),
+    overwrite: bool = False,
+) -> dict[str, Any]:
+    """Writes down which run the folder is of; returns where its record comes from.
+
+    ``planned``: the schedule and what else it is run by. Raises FileError where the folder holds
+    another run, finished or not, or some of ``files`` and no word of the run that they are of;
+    unless they may be overwritten.
+    """
+    whence = provenance_of(world, config, seed, _core.Learner()) | {
+        "code": code_fingerprint(),
+        "run": dict(planned),
+    }
+    about = folder / ABOUT
+    if overwrite:
+        (folder / STATE).unlink(missing_ok=True)
+    elif about.exists():
+        found = _read(about)
+        _require_same(about, found, whence, "a finished" if found["finished"] else "an unfinished")
+    elif not (folder / STATE).exists():
+        for name in files:
+            if (folder / name).exists():
+                raise FileError(
+                    str(folder / name), "", "a file of some other run",
+                    "a folder without, another --output, or --overwrite",
+                )  # fmt: skip
+    _write(about, whence, finished=False)
+    return whence
+
+
+def end(folder: Path, whence: Mapping[str, Any]) -> None:
+    """The run is finished and written: its state goes, and the folder says so."""
+    _write(folder / ABOUT, whence, finished=True)
+    (folder / STATE).unlink(missing_ok=True)
+
+
+def _write(about: Path, whence: Mapping[str, Any], finished: bool) -> None:
+    with written_aside(about, "w") as file:
+        json.dump({"finished": finished, **whence}, file, indent=1)
+        file.write("\n")
+
+
+def _read(about: Path) -> dict[str, Any]:
+    try:
+        found = json.loads(about.read_bytes())
+    except (ValueError, RecursionError):
+        found = None
+    if not isinstance(found, dict) or not isinstance(found.get("finished"), bool):
+        raise FileError(
+            str(about), "", "no description of a run", "what devlearn run wrote, or --overwrite"
+        )
+    return found
 
 
 def run_to_the_end(
@@ -29,38 +91,38 @@ def run_to_the_end(
     config: _core.TrialConfig,
     seed: int,
     schedule: Schedule,
+    whence: Mapping[str, Any],
     echoes: bool = False,
     save_every: int | None = None,
 ) -> tuple[_core.Trial, Record]:
     """Runs the schedule, from the state in ``folder`` where there is one.
 
     The state is saved there every ``save_every`` steps; by default every ten seconds, and less
-    often where that would take more than a twentieth of the time. Ctrl-C saves it and raises
-    KeyboardInterrupt. The history is the same however often it was stopped. Raises FileError where
-    the state is that of another run.
+    often where that would take more than a twentieth of the time. Ctrl-C or SIGTERM saves it and
+    raises KeyboardInterrupt, whose argument is the signal. The history is the same however often
+    it was stopped. Raises FileError where the state is that of another run, or its trial and its
+    record do not belong together.
     """
     state = folder / STATE
     trial = _core.Trial(world, config, seed)
-    whence = provenance_of(world, config, seed, trial.agent) | {
-        "code": code_fingerprint(),
-        "run": {**schedule.to_dict(), "echoes": echoes},
-    }
+    whence = dict(whence)
     parts: list[Record] = []
     done = None
     if state.exists():
         done = Record.load(state)
         _require_same(state, done.provenance, whence)
         trial = _core.Trial.load(state)
+        _require_together(state, trial, done, world, config, seed)
         parts = [done]
 
     unsaved, saved, cost = 0, time.monotonic(), 0.0
-    with _ctrl_c_noted() as asked:
+    with _stop_noted() as asked:
         for part in schedule.parts(trial, done, min(AT_ONCE, save_every or AT_ONCE), echoes=echoes):
             parts.append(part)
             unsaved += len(part)
             since = time.monotonic() - saved
             due = unsaved >= save_every if save_every else since >= max(SECONDS, cost / SHARE)
-            if due or asked.is_set():
+            if due or asked:
                 began = time.monotonic()
                 joined = Record.concatenate(parts)
                 joined.provenance = whence
@@ -68,29 +130,59 @@ def run_to_the_end(
                 parts = [joined]
                 unsaved, saved = 0, time.monotonic()
                 cost = saved - began
-            if asked.is_set():
-                raise KeyboardInterrupt
+            if asked:
+                raise KeyboardInterrupt(asked[0])
     whole = Record.concatenate(parts)
     whole.provenance = {k: v for k, v in whence.items() if k not in ("run", "code")}
     return trial, whole
 
 
-def _require_same(state: Path, found: Mapping[str, Any], expected: Mapping[str, Any]) -> None:
+def _require_same(
+    file: Path, found: Mapping[str, Any], expected: Mapping[str, Any], kind: str = "an unfinished"
+) -> None:
     before, now = dict(_flat(found)), dict(_flat(expected))
     for name, value in now.items():
-        if before.get(name) != value:
-            if name == "code":
-                name, before[name], value = (
-                    "devlearn",
-                    "another build",
-                    "the one that began the run",
-                )
+        if before.get(name) == value:
+            continue
+        if name == "code":
+            name, before[name], value = "devlearn", "another build", "the one that began the run"
+        finish = "" if kind == "a finished" else "finish that run with its own options, "
+        raise FileError(
+            str(file),
+            name,
+            f"{kind} run with {before.get(name)}",
+            f"{value}; {finish}choose another --output, or --overwrite it",
+        )
+
+
+def _require_together(
+    state: Path,
+    trial: _core.Trial,
+    done: Record,
+    world: _core.World,
+    config: _core.TrialConfig,
+    seed: int,
+) -> None:
+    """A trial goes on from a record's end: what both say of it must agree."""
+    rounds = done.rounds["round"].tolist()
+    last = (done.x[-1], done.y[-1], done.heading[-1]) if len(done.x) else world.start
+    learner = trial.learner
+    of_trial_and_record = {
+        "seed": (trial.seed, seed),
+        "world": (trial.world.hash, world.hash),
+        "config": (trial.config, config),
+        "rounds": (rounds, list(range(1, len(rounds) + 1))),
+        "round": (trial.round, rounds[-1] if rounds else 0),
+        "pose": (tuple(trial.pose), tuple(last)),
+        "explored_count": (
+            -1 if learner is None else learner.explored_count,
+            done.explored_count[-1] if len(done) else 0,
+        ),
+    }
+    for name, (found, expected) in of_trial_and_record.items():
+        if found != expected:
             raise FileError(
-                str(state),
-                name,
-                f"an unfinished run with {before.get(name)}",
-                f"{value}; finish that run with its own options, remove the file, or choose "
-                "another --output",
+                str(state), name, f"{found} of a trial that is not its record's", str(expected)
             )
 
 
@@ -103,20 +195,17 @@ def _flat(values: Mapping[str, Any], outer: str = "") -> Iterator[tuple[str, Any
 
 
 @contextmanager
-def _ctrl_c_noted() -> Iterator[threading.Event]:
-    """Ctrl-C as an event, so that it never falls between a step and its record."""
-    asked = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield asked  # where Python raises no KeyboardInterrupt
-        return
-    before = signal.signal(signal.SIGINT, lambda *_: asked.set())
+def _stop_noted() -> Iterator[list[int]]:
+    """Ctrl-C and SIGTERM as a list of signals, so that none falls between a step and its record."""
+    asked: list[int] = []
+    before = {}
+    # Elsewhere Python raises no KeyboardInterrupt.
+    if threading.current_thread() is threading.main_thread():
+        for number in (signal.SIGINT, signal.SIGTERM):
+            if signal.getsignal(number) is not signal.SIG_IGN:  # as nohup and shells ask for
+                before[number] = signal.signal(number, lambda number, _: asked.append(number))
     try:
         yield asked
     finally:
-        signal.signal(signal.SIGINT, before)
-
-
-def forget(folder: str | os.PathLike[str]) -> None:
-    """Removes the state of a run that is finished and written, and what a kill left beside it."""
-    for left in sorted(Path(folder).glob(STATE + "*"), reverse=True):  # the state last
-        left.unlink()
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -168,7 +168,8 @@ def test_the_same_command_makes_the_same_history(tmp_path, monkeypatch):
 
 def run_config(tmp_path, *options):
     """The configuration of a run with these options."""
-    assert cli.main(["run", "empty", *SHORT, "--output", str(tmp_path / "out"), *options]) == 0
+    line = ["run", "empty", *SHORT, "--output", str(tmp_path / "out"), "--overwrite", *options]
+    assert cli.main(line) == 0
     return Record.load(tmp_path / "out" / "paths.npz").config
 
 
@@ -283,7 +284,7 @@ def test_run_refuses_to_go_on_with_another_run(tmp_path, monkeypatch, capsys, op
     before = (tmp_path / "state.safetensors").read_bytes()
     line = refusal(capsys, *LONG, *options, "--output", tmp_path)
     assert says in line
-    assert "remove the file, or choose another --output" in line
+    assert "finish that run with its own options, choose another --output, or --over" in line
     assert (tmp_path / "state.safetensors").read_bytes() == before
 
 
@@ -311,7 +312,8 @@ def test_a_reader_who_leaves_is_no_error_of_ours(tmp_path):
     )  # fmt: skip
     run.stdout.close()
     assert run.stderr.read() == ""
-    assert run.wait(60) == 1
+    assert run.wait(60) == 0
+    assert Record.load(tmp_path / "paths.npz").provenance["seed"] == 1
 
 
 # --- what is refused ------------------------------------------------------------------------------

@@ -183,6 +183,35 @@ def test_what_other_code_made_is_not_taken_for_a_result(tmp_path, monkeypatch):
     again.close()
 
 
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda line: line.replace(b'"square": 1', b'"square": 2'),
+        lambda line: line.replace(b'"checksum": "', b'"checksum": "0'),
+        lambda line: b'{"key": "k", "result": {"square": 1}}',
+        lambda line: b'{"key": ["k"], "result": 3, "checksum": "x"}',
+        lambda line: b"[1, 2]",
+        lambda line: b"null",
+        lambda line: b"[" * 10**5,
+        lambda line: b"\xff\x00",
+    ],
+)
+def test_a_damaged_entry_is_counted_and_run_again(tmp_path, damage):
+    path = tmp_path / "runs.jsonl"
+    journal = Journal(path)
+    for n in range(3):
+        journal.add({"n": n}, {"square": n**2})
+    journal.close()
+    lines = path.read_bytes().splitlines()
+    assert damage(lines[1]) != lines[1]
+    lines[1] = damage(lines[1])
+    path.write_bytes(b"\n".join(lines) + b"\n")
+    journal = Journal(path)
+    assert journal.damaged == 1
+    assert [journal.find({"n": n}) for n in range(3)] == [{"square": 0}, None, {"square": 4}]
+    journal.close()
+
+
 def test_jobs_that_differ_in_any_value_are_different(journal):
     journal.add({"n": 0, "sigma": 0.3}, {"square": 0})
     assert journal.find({"sigma": 0.3, "n": 0}) == {"square": 0}  # in whatever order
