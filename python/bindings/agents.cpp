@@ -60,7 +60,7 @@ StateArray array_from(const std::string& name, const py::object& value) {
     auto* const array = new py::array(numpy.attr("array")(
         value, py::arg("dtype") = dtype, py::arg("copy") = true, py::arg("order") = "C"));
     const std::shared_ptr<const void> owner(array, [](const py::array* owned) {
-      const py::gil_scoped_acquire gil;
+      const Gil gil;
       delete owned;
     });
     const Shape shape(array->shape(), array->shape() + array->ndim());
@@ -150,7 +150,7 @@ class PythonAgent final : public Agent {
     }
   }
   ~PythonAgent() override {
-    const py::gil_scoped_acquire gil;
+    const Gil gil;
     agent_ = py::object();
   }
   PythonAgent(const PythonAgent&) = delete;
@@ -159,7 +159,7 @@ class PythonAgent final : public Agent {
   void begin_round() override { call_if_there("begin_round"); }
 
   Choice choose(const Observation& observation) override {
-    const py::gil_scoped_acquire gil;
+    const Gil gil;
     const py::object chosen = agent_.attr("choose")(KeptObservation(observation));
     py::detail::make_caster<Choice> choice;
     if (choice.load(chosen, true)) return choice;
@@ -170,7 +170,7 @@ class PythonAgent final : public Agent {
   }
 
   Development observe(const Outcome& outcome) override {
-    const py::gil_scoped_acquire gil;
+    const Gil gil;
     const py::object result = agent_.attr("observe")(outcome);
     py::detail::make_caster<Development> development;
     if (development.load(result, true)) {
@@ -193,7 +193,7 @@ class PythonAgent final : public Agent {
   void end_round(bool arrived) override { call_if_there("end_round", arrived); }
 
   std::optional<AgentState> state() const override {
-    const py::gil_scoped_acquire gil;
+    const Gil gil;
     if (py::hasattr(agent_, "state") && py::hasattr(py::type::of(agent_), "from_state")) {
       return state_from(agent_);
     }
@@ -208,7 +208,7 @@ class PythonAgent final : public Agent {
  private:
   template <typename... Arguments>
   void call_if_there(const char* method, Arguments... arguments) {
-    const py::gil_scoped_acquire gil;
+    const Gil gil;
     if (py::hasattr(agent_, method)) agent_.attr(method)(arguments...);
   }
 
@@ -240,7 +240,7 @@ LoadOptions load_options(const py::object& agent) {
     throw InvalidValue("agent", shown(agent), "an agent, or a class with from_state");
   }
   const AgentMaker make = [agent](const AgentState& state) {
-    const py::gil_scoped_acquire gil;
+    const Gil gil;
     // A module may have moved, or be the program itself.
     const std::string name = py::str(agent.attr("__qualname__"));
     const std::size_t colon = state.kind.find(':');

@@ -20,6 +20,7 @@
 #include "devlearn/learner.hpp"
 #include "devlearn/situation.hpp"
 #include "devlearn/world.hpp"
+#include "threads.hpp"
 
 namespace py = pybind11;
 
@@ -91,43 +92,12 @@ class MemoryObject : public py::object {
   static bool check_(py::handle) { return true; }
 };
 
-/// A turn at the simulator, without the GIL: other Python threads run meanwhile, but Box2D, with
-/// its global counters, serves one thread at a time. A thread may take a turn within its turn, as
-/// an agent does that listens to a sonar. Who waits for a turn hears Ctrl-C.
-class Turn {
+/// A threading.Event, or what has its is_set().
+class EventObject : public py::object {
  public:
-  Turn();
-  ~Turn();
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-
- private:
-  // Whoever waits for a turn must not hold the GIL.
-  py::gil_scoped_release no_gil_;
-};
-
-/// Marks a learner, while it lives, as in the hands of this thread's run. Made with the GIL held.
-class InRun {
- public:
-  explicit InRun(std::shared_ptr<Learner> learner);
-  ~InRun();
-  InRun(const InRun&) = delete;
-  InRun& operator=(const InRun&) = delete;
-
- private:
-  std::shared_ptr<Learner> learner_;
-};
-
-/// A learner that Python calls; refused while another thread's run has it in hand.
-class Idle {
- public:
-  Idle() = default;
-  explicit Idle(Learner& learner);
-  Learner* operator->() const { return learner_; }
-  Learner& operator*() const { return *learner_; }
-
- private:
-  Learner* learner_ = nullptr;
+  using py::object::object;
+  static bool check_(py::handle event) { return py::hasattr(event, "is_set"); }
+  bool is_set() const { return py::bool_(attr("is_set")()); }
 };
 
 /// A path from Python as the system takes it: text, bytes or os.PathLike.
@@ -247,6 +217,11 @@ struct type_caster<devlearn::python::Whole<Tag>> {
 template <>
 struct handle_type_name<devlearn::python::MemoryObject> {
   static constexpr auto name = const_name("devlearn._types.LearnerMemory");
+};
+
+template <>
+struct handle_type_name<devlearn::python::EventObject> {
+  static constexpr auto name = const_name("threading.Event");
 };
 
 template <>

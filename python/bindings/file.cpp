@@ -13,7 +13,7 @@ void bind_file(py::module_& m) {
         const std::string name = file_path(path);
         const std::string_view view = content;
         // Another thread may hold the file's lock and want the GIL.
-        const py::gil_scoped_release no_gil;
+        const NoGil no_gil;
         SideFile file(name);
         file.write(view.data(), view.size());
         file.commit();

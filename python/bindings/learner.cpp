@@ -120,13 +120,19 @@ struct ReserveTag {
   static constexpr const char* allowed = "a whole number in [0, 2^32 - 2]";
 };
 
-py::bytes snapshot_bytes(Idle learner) {
-  const std::vector<std::byte> bytes = to_bytes(*learner);
+py::bytes snapshot_bytes(const Learner& learner) {
+  std::vector<std::byte> bytes;
+  {
+    const InHand reading(learner, InHand::For::kReading);
+    const NoGil no_gil;
+    bytes = to_bytes(learner);
+  }
   return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 Learner from_bytes(const py::bytes& bytes) {
   const std::string_view view = bytes;
+  const NoGil no_gil;
   return load_learner(reinterpret_cast<const std::byte*>(view.data()), view.size(), "bytes");
 }
 
@@ -340,13 +346,24 @@ void bind_learner(py::module_& m) {
           "InvalidValue; nothing has changed then) instead of room being made, which for a "
           "million of them takes a fifth of a second. Not part of a snapshot.")
       .def(
-          "save", [](Idle self, const py::object& path) { save(*self, file_path(path)); },
+          "save",
+          [](const Learner& self, const py::object& path) {
+            const std::string name = file_path(path);
+            const InHand reading(self, InHand::For::kReading);
+            const NoGil no_gil;
+            save(self, name);
+          },
           py::arg("path"),
           "Writes a snapshot (safetensors layout): to the side first, flushed, then renamed. "
           "Raises "
           "FileError.")
       .def_static(
-          "load", [](const py::object& path) { return load_learner(file_path(path)); },
+          "load",
+          [](const py::object& path) {
+            const std::string name = file_path(path);
+            const NoGil no_gil;
+            return load_learner(name);
+          },
           py::arg("path"),
           "The learner in a snapshot; it goes on equal to the bit. Raises FileError, saying what "
           "is "

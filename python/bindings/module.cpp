@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("commit") = devlearn::commit();
   m.attr("box2d_version") = DEVLEARN_BOX2D_VERSION;
 
+  devlearn::python::bind_threads(m);
   devlearn::python::bind_error(m);
   devlearn::python::bind_math(m);
   devlearn::python::bind_file(m);

@@ -25,7 +25,7 @@ void bind_robot(py::module_& m) {
           "step",
           [](const Robot& self, const Pose& pose, Whole<MotionTag> motion) {
             const Robot::Move step = [&] {
-              const Turn turn;
+              const NoGil no_gil;
               return self.step(pose, motion.value);
             }();
             return std::make_pair(step.pose, step.collided);
@@ -49,7 +49,7 @@ void bind_robot(py::module_& m) {
           "sonar",
           [](const Robot& self, const Pose& pose) {
             std::vector<double> echoes = [&] {
-              const Turn turn;
+              const NoGil no_gil;
               return self.sonar(pose);
             }();
             return moved_array<double>(std::move(echoes));

@@ -1,8 +1,12 @@
 #include "devlearn/trial.hpp"
 
+#include <pybind11/typing.h>
+
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <type_traits>
 
 #include "agents.hpp"
 #include "bindings.hpp"
@@ -36,39 +40,84 @@ RecordObject as_record(const Trial& trial, Record&& record) {
                                              trial.config(), trial.seed(), agent_of(trial)));
 }
 
-/// Runs `phase(trial, record, options)` without the GIL. Ctrl-C is looked for every 20 ms, between
-/// two steps; then, and where an agent raises, what is finished stays in `trial.interrupted`.
+using Clock = std::chrono::steady_clock;
+constexpr auto kBetweenTold = std::chrono::milliseconds(100);
+
+// progress(done, total)
+using Told = py::typing::Callable<py::object(std::int64_t, std::int64_t)>;
+
+/// How Python asks for a phase.
+struct Asked {
+  bool echoes, rounds_only;
+  std::optional<EventObject> stop;
+  std::optional<Told> progress;
+};
+
+// What of a phase is in its record: rounds where it consists of them, otherwise steps.
+std::int64_t finished(const Record& record, bool of_rounds) {
+  if (record.rounds.empty()) return 0;
+  const Round& last = record.rounds.back();
+  if (!of_rounds) return last.steps;
+  return static_cast<std::int64_t>(record.rounds.size()) - (last.arrived ? 0 : 1);
+}
+
+/// Runs `phase(trial, record, options)` without the GIL, `total` rounds or steps. What was finished
+/// when Ctrl-C or an exception ended it stays in `trial.interrupted`.
 template <typename Phase>
-RecordObject run_phase(py::object& self, bool echoes, bool rounds_only, const Phase& phase) {
+RecordObject run_phase(py::object& self, std::int64_t total, bool of_rounds, const Asked& asked,
+                       const Phase& phase) {
   auto& trial = self.cast<Trial&>();
-  using Clock = std::chrono::steady_clock;
-  constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
-  Clock::time_point looked = Clock::now();
-  bool stopped = false;
-  const RunOptions options{echoes,
-                           [&] {
-                             if (Clock::now() - looked < kBetweenLooks) return false;
-                             const py::gil_scoped_acquire gil;
-                             stopped = PyErr_CheckSignals() != 0;
-                             looked = Clock::now();
-                             return stopped;
-                           },
-                           rounds_only};
+  const InHand in_hand(trial, InHand::For::kRunning);
   Record record;
+  auto told = Clock::now();
+  bool stopped = false;
+  Watch watch([&] {
+    if (asked.progress && Clock::now() - told >= kBetweenTold) {
+      (*asked.progress)(finished(record, of_rounds), total);
+      told = Clock::now();
+    }
+    return stopped = asked.stop && asked.stop->is_set();
+  });
   try {
-    const InRun in_run(trial.learner());
-    const Turn turn;
-    phase(trial, record, options);
-  } catch (...) {
+    {
+      const NoGil no_gil;
+      phase(trial, record, RunOptions{asked.echoes, std::ref(watch), asked.rounds_only});
+    }
+    watch.rethrow();
+    if (asked.progress && !stopped) (*asked.progress)(total, total);
+  } catch (const std::exception&) {
     if (!record.rounds.empty()) self.attr("interrupted") = as_record(trial, std::move(record));
     throw;
   }
-  if (stopped) {
-    const py::error_already_set interrupt;
-    self.attr("interrupted") = as_record(trial, std::move(record));
-    throw interrupt;
-  }
   return as_record(trial, std::move(record));
+}
+
+/// Defines a phase of so many rounds or steps, the first of its counts.
+template <typename... Counts, typename Phase, typename... Named>
+void def_phase(py::class_<Trial>& cls, const char* name, Phase phase, bool of_rounds,
+               const char* doc, const Named&... named) {
+  cls.def(
+      name,
+      [phase, of_rounds](py::object& self, Counts... counts, bool echoes, bool rounds_only,
+                         std::optional<EventObject> stop, std::optional<Told> progress) {
+        const std::int64_t all[] = {counts.value...};
+        return run_phase(self, all[0], of_rounds,
+                         {echoes, rounds_only, std::move(stop), std::move(progress)},
+                         [&](Trial& trial, Record& record, const RunOptions& options) {
+                           (trial.*phase)(record, counts.value..., options);
+                         });
+      },
+      named..., py::kw_only(), py::arg("echoes") = false, py::arg("rounds_only") = false,
+      py::arg("stop") = py::none(), py::arg("progress") = py::none(), doc);
+}
+
+/// What Python reads of a trial that no other thread runs.
+template <typename Value>
+auto at_rest(Value (Trial::*read)() const noexcept) {
+  return [read](const Trial& self) -> std::decay_t<Value> {
+    require_free(&self, "Trial", InHand::For::kReading);
+    return (self.*read)();
+  };
 }
 
 void bind_config(py::module_& m) {
@@ -100,7 +149,10 @@ void bind_trial(py::module_& m) {
       "end_round(arrived), True where path learning arrives, False where the next round begins;\n"
       "cancel(), where its motion was refused. With state() -> dict of arrays and a classmethod\n"
       "from_state(dict) it is saved with the trial. Raises InvalidValue.\n\n"
-      "A phase that Ctrl-C or an agent's exception ends leaves what it finished in `interrupted`.");
+      "A phase that Ctrl-C or an exception ends leaves what it finished in `interrupted`. Trials "
+      "in\n"
+      "several threads run at once. A trial that one thread runs, its learner, and a RandomAgent\n"
+      "are refused to others meanwhile, and for good to a child forked then.");
   cls.attr("interrupted") = py::none();
   cls.def(py::init([](const World& world, const std::optional<TrialConfig>& given,
                       Whole<SeedTag> seed, const py::object& agent) {
@@ -109,80 +161,65 @@ void bind_trial(py::module_& m) {
             return std::make_unique<Trial>(world, config, seed.value, as_agent(agent));
           }),
           py::arg("world"), py::arg("config") = py::none(), py::arg("seed") = 0,
-          py::arg("agent") = py::none())
+          py::arg("agent") = py::none());
+  def_phase<Whole<StepsTag>>(
+      cls, "run", &Trial::run, false,
+      "`steps` steps from where the robot is, in the present round.\n\n"
+      "All phases take the same options. `echoes` records the sonars, too. With `rounds_only` the\n"
+      "record holds `rounds` and no steps or poses, and memory does not grow with steps; not\n"
+      "together with echoes. `stop`, a threading.Event or what has its is_set(), ends the phase\n"
+      "within 50 ms of being set, from another thread too; what is finished is returned as ever.\n"
+      "`progress` is called as progress(done, total) ten times a second at most, in steps (in\n"
+      "rounds by path_learning), and once at the end; what it raises ends the phase as Ctrl-C "
+      "does.",
+      py::arg("steps"));
+  def_phase<Whole<StepsTag>>(
+      cls, "free_learning", &Trial::free_learning, false,
+      "A new round of `steps` steps from the start pose; reaching the target ends nothing. Options "
+      "as run.",
+      py::arg("steps"));
+  def_phase<Whole<RoundsTag>, Whole<StepLimitTag>>(
+      cls, "path_learning", &Trial::path_learning, true,
+      "`rounds` new rounds from the start pose, each until the target is reached, or failed "
+      "(arrived False) after `step_limit` steps. Options as run.",
+      py::arg("rounds"), py::arg("step_limit") = 10000);
+  def_phase<Whole<StepsTag>>(
+      cls, "finish_round", &Trial::finish_round, false,
+      "Goes on with the present round until the target is reached, for at most `steps` steps: what "
+      "finishes a round of path learning that was interrupted. Options as run.",
+      py::arg("steps"));
+  cls.def(
+         "step",
+         [](Trial& self) {
+           const InHand in_hand(self, InHand::For::kRunning);
+           const NoGil no_gil;
+           return self.step();
+         },
+         "One step: once around the loop.")
       .def(
-          "step",
+          "begin_round",
           [](Trial& self) {
-            const InRun in_run(self.learner());
-            const Turn turn;
-            return self.step();
+            const InHand in_hand(self, InHand::For::kRunning);
+            const NoGil no_gil;
+            self.begin_round();
           },
-          "One step: once around the loop.")
-      .def(
-          "run",
-          [](py::object& self, Whole<StepsTag> steps, bool echoes, bool rounds_only) {
-            return run_phase(self, echoes, rounds_only,
-                             [&](Trial& trial, Record& record, const RunOptions& run) {
-                               trial.run(record, steps.value, run);
-                             });
-          },
-          py::arg("steps"), py::kw_only(), py::arg("echoes") = false,
-          py::arg("rounds_only") = false,
-          "`steps` steps from where the robot is, in the present round. `echoes` records the "
-          "sonars, too. With `rounds_only` the record holds `rounds` and no steps or poses, and "
-          "memory does not grow with steps; not together with echoes.")
-      .def(
-          "free_learning",
-          [](py::object& self, Whole<StepsTag> steps, bool echoes, bool rounds_only) {
-            return run_phase(self, echoes, rounds_only,
-                             [&](Trial& trial, Record& record, const RunOptions& run) {
-                               trial.free_learning(record, steps.value, run);
-                             });
-          },
-          py::arg("steps"), py::kw_only(), py::arg("echoes") = false,
-          py::arg("rounds_only") = false,
-          "A new round of `steps` steps from the start pose; reaching the target ends nothing.")
-      .def(
-          "path_learning",
-          [](py::object& self, Whole<RoundsTag> rounds, Whole<StepLimitTag> step_limit, bool echoes,
-             bool rounds_only) {
-            return run_phase(self, echoes, rounds_only,
-                             [&](Trial& trial, Record& record, const RunOptions& run) {
-                               trial.path_learning(record, rounds.value, step_limit.value, run);
-                             });
-          },
-          py::arg("rounds"), py::arg("step_limit") = 10000, py::kw_only(),
-          py::arg("echoes") = false, py::arg("rounds_only") = false,
-          "`rounds` new rounds from the start pose, each until the target is reached, or failed "
-          "(arrived False) after `step_limit` steps.")
-      .def(
-          "finish_round",
-          [](py::object& self, Whole<StepsTag> steps, bool echoes, bool rounds_only) {
-            return run_phase(self, echoes, rounds_only,
-                             [&](Trial& trial, Record& record, const RunOptions& run) {
-                               trial.finish_round(record, steps.value, run);
-                             });
-          },
-          py::arg("steps"), py::kw_only(), py::arg("echoes") = false,
-          py::arg("rounds_only") = false,
-          "Goes on with the present round until the target is reached, for at most `steps` steps: "
-          "what finishes a round of path learning that was interrupted.")
-      .def("begin_round", &Trial::begin_round, py::call_guard<Turn>(),
-           "Puts the robot at the start pose for a new round.")
+          "Puts the robot at the start pose for a new round.")
       .def(
           "place",
           [](Trial& self, double x, double y, double heading) {
+            const InHand in_hand(self, InHand::For::kRunning);
+            const NoGil no_gil;
             self.place({x, y, heading});
           },
-          py::arg("x"), py::arg("y"), py::arg("heading"), py::call_guard<Turn>(),
+          py::arg("x"), py::arg("y"), py::arg("heading"),
           "Puts the robot anywhere it fits [m, m, degrees] for a new round. Raises InvalidValue.")
-      .def_property_readonly("pose", &Trial::pose, "Where the robot is [m, m, degrees].")
-      .def_property_readonly("round", &Trial::round,
+      .def_property_readonly("pose", at_rest(&Trial::pose), "Where the robot is [m, m, degrees].")
+      .def_property_readonly("round", at_rest(&Trial::round),
                              "The present round, from 1; 0 before the first.")
-      .def_property_readonly("round_open", &Trial::round_open,
+      .def_property_readonly("round_open", at_rest(&Trial::round_open),
                              "Whether the agent is in a round: told that it began, and not yet "
                              "that it ended.")
-      .def_property_readonly("arrived", &Trial::arrived, "Whether d_g <= goal_radius.")
+      .def_property_readonly("arrived", at_rest(&Trial::arrived), "Whether d_g <= goal_radius.")
       .def_property_readonly("learner", &Trial::learner,
                              "The paper's learner, where that is the agent; None otherwise.")
       .def_property_readonly("agent", &agent_of, "Whoever chooses.")

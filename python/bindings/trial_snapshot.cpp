@@ -14,8 +14,8 @@ namespace {
 /// What Python asks to be saved, as C++ does; it is made with the GIL held.
 class Saving {
  public:
-  Saving(const Trial& trial, const py::object& record, bool without_agent) {
-    if (const auto learner = trial.learner()) const Idle not_in_a_run(*learner);
+  Saving(const Trial& trial, const py::object& record, bool without_agent)
+      : reading_(trial, InHand::For::kReading) {
     options_.agent = !without_agent;
     if (record.is_none()) return;
     const py::module_ ours = py::module_::import("devlearn.record");
@@ -33,6 +33,7 @@ class Saving {
   const SaveOptions& options() const { return options_; }
 
  private:
+  InHand reading_;
   Record record_;
   SaveOptions options_;
 };
@@ -41,7 +42,7 @@ py::bytes snapshot_bytes(const Trial& trial, const py::object& record, bool with
   const Saving saving(trial, record, without_agent);
   std::vector<std::byte> bytes;
   {
-    const Turn turn;
+    const NoGil no_gil;
     bytes = to_bytes(trial, saving.options());
   }
   return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -50,7 +51,7 @@ py::bytes snapshot_bytes(const Trial& trial, const py::object& record, bool with
 TrialSnapshot from_bytes(const py::bytes& bytes, const LoadOptions& options,
                          const std::string& source) {
   const std::string_view view = bytes;
-  const Turn turn;
+  const NoGil no_gil;
   return load_trial(reinterpret_cast<const std::byte*>(view.data()), view.size(), options, source);
 }
 
@@ -75,7 +76,7 @@ void bind_trial_snapshot(py::module_& m) {
             bool without_agent) {
            const std::string name = file_path(path);
            const Saving saving(self, record, without_agent);
-           const Turn turn;
+           const NoGil no_gil;
            save(self, name, saving.options());
          },
          py::arg("path"), py::arg("record") = py::none(), py::kw_only(),
@@ -92,7 +93,7 @@ void bind_trial_snapshot(py::module_& m) {
           [](const py::object& path, const py::object& agent) {
             const std::string name = file_path(path);
             const LoadOptions options = load_options(agent);
-            const Turn turn;
+            const NoGil no_gil;
             return load_trial(name, options).trial;
           },
           py::arg("path"), py::arg("agent") = py::none(),

@@ -107,7 +107,9 @@ void bind_world(py::module_& m) {
           [](const py::object& path_or_name) {
             const py::object path =
                 py::module_::import("devlearn._worlds").attr("path_of")(path_or_name);
-            return World::load(file_path(path));
+            const std::string name = file_path(path);
+            const NoGil no_gil;
+            return World::load(name);
           },
           py::arg("path_or_name"),
           "The world in a JSON file, or one that ships by its name (see devlearn.worlds()). Raises "
@@ -115,7 +117,7 @@ void bind_world(py::module_& m) {
       .def_static(
           "random",
           [](const std::string& kind, Whole<SeedTag> seed, double difficulty) {
-            const py::gil_scoped_release no_gil;
+            const NoGil no_gil;
             return World::random(kind, seed.value, difficulty);
           },
           py::arg("kind"), py::arg("seed"), py::kw_only(), py::arg("difficulty") = 0.5,
@@ -124,11 +126,21 @@ void bind_world(py::module_& m) {
           "'corridors', 'rooms' or 'traps'. difficulty in [0, 1]: what it means for each kind is\n"
           "in docs/worlds.md. Raises InvalidValue.")
       .def_static(
-          "from_json", [](const std::string& text) { return World::parse(text); }, py::arg("text"),
-          "The world in JSON text. Raises FileError.")
-      .def("to_json", &World::to_json, "JSON text that from_json reads back as an equal world.")
+          "from_json",
+          [](const std::string& text) {
+            const NoGil no_gil;
+            return World::parse(text);
+          },
+          py::arg("text"), "The world in JSON text. Raises FileError.")
+      .def("to_json", &World::to_json, py::call_guard<NoGil>(),
+           "JSON text that from_json reads back as an equal world.")
       .def(
-          "save", [](const World& self, const py::object& path) { self.save(file_path(path)); },
+          "save",
+          [](const World& self, const py::object& path) {
+            const std::string name = file_path(path);
+            const NoGil no_gil;
+            self.save(name);
+          },
           py::arg("path"), "Writes to_json() to a file, atomically. Raises FileError.")
       .def("with_start", &World::with_start, py::arg("start"),
            "The same world with another start (x, y, heading). Raises InvalidValue.")

@@ -9,6 +9,7 @@ import devlearn.record
 import enum
 import numpy
 import numpy.typing
+import threading
 import typing
 
 __all__: list[str] = [
@@ -1348,7 +1349,9 @@ class Trial:
     cancel(), where its motion was refused. With state() -> dict of arrays and a classmethod
     from_state(dict) it is saved with the trial. Raises InvalidValue.
 
-    A phase that Ctrl-C or an agent's exception ends leaves what it finished in `interrupted`.
+    A phase that Ctrl-C or an exception ends leaves what it finished in `interrupted`. Trials in
+    several threads run at once. A trial that one thread runs, its learner, and a RandomAgent
+    are refused to others meanwhile, and for good to a child forked then.
     """
 
     interrupted: devlearn.record.Record | None
@@ -1381,16 +1384,28 @@ class Trial:
         An independent trial, with an agent of its own, that goes on alike.
         """
     def finish_round(
-        self, steps: typing.SupportsIndex, *, echoes: bool = False, rounds_only: bool = False
+        self,
+        steps: typing.SupportsIndex,
+        *,
+        echoes: bool = False,
+        rounds_only: bool = False,
+        stop: threading.Event | None = None,
+        progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
     ) -> devlearn.record.Record:
         """
-        Goes on with the present round until the target is reached, for at most `steps` steps: what finishes a round of path learning that was interrupted.
+        Goes on with the present round until the target is reached, for at most `steps` steps: what finishes a round of path learning that was interrupted. Options as run.
         """
     def free_learning(
-        self, steps: typing.SupportsIndex, *, echoes: bool = False, rounds_only: bool = False
+        self,
+        steps: typing.SupportsIndex,
+        *,
+        echoes: bool = False,
+        rounds_only: bool = False,
+        stop: threading.Event | None = None,
+        progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
     ) -> devlearn.record.Record:
         """
-        A new round of `steps` steps from the start pose; reaching the target ends nothing.
+        A new round of `steps` steps from the start pose; reaching the target ends nothing. Options as run.
         """
     def path_learning(
         self,
@@ -1399,9 +1414,11 @@ class Trial:
         *,
         echoes: bool = False,
         rounds_only: bool = False,
+        stop: threading.Event | None = None,
+        progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
     ) -> devlearn.record.Record:
         """
-        `rounds` new rounds from the start pose, each until the target is reached, or failed (arrived False) after `step_limit` steps.
+        `rounds` new rounds from the start pose, each until the target is reached, or failed (arrived False) after `step_limit` steps. Options as run.
         """
     def place(
         self,
@@ -1413,10 +1430,23 @@ class Trial:
         Puts the robot anywhere it fits [m, m, degrees] for a new round. Raises InvalidValue.
         """
     def run(
-        self, steps: typing.SupportsIndex, *, echoes: bool = False, rounds_only: bool = False
+        self,
+        steps: typing.SupportsIndex,
+        *,
+        echoes: bool = False,
+        rounds_only: bool = False,
+        stop: threading.Event | None = None,
+        progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
     ) -> devlearn.record.Record:
         """
-        `steps` steps from where the robot is, in the present round. `echoes` records the sonars, too. With `rounds_only` the record holds `rounds` and no steps or poses, and memory does not grow with steps; not together with echoes.
+        `steps` steps from where the robot is, in the present round.
+
+        All phases take the same options. `echoes` records the sonars, too. With `rounds_only` the
+        record holds `rounds` and no steps or poses, and memory does not grow with steps; not
+        together with echoes. `stop`, a threading.Event or what has its is_set(), ends the phase
+        within 50 ms of being set, from another thread too; what is finished is returned as ever.
+        `progress` is called as progress(done, total) ten times a second at most, in steps (in
+        rounds by path_learning), and once at the end; what it raises ends the phase as Ctrl-C does.
         """
     def save(
         self, path: typing.Any, record: typing.Any = None, *, without_agent: bool = False

@@ -5,7 +5,6 @@ import os
 import pathlib
 import signal
 import subprocess
-import sys
 import threading
 import time
 
@@ -445,7 +444,6 @@ def test_another_thread_makes_progress_during_a_run(paper):
 
 
 def test_trials_in_several_threads_give_the_histories_that_they_give_alone(paper):
-    """They take turns: Box2D serves one thread at a time."""
     alone = [Trial(paper, seed=s).path_learning(20, 500, echoes=True) for s in range(4)]
     trials = [Trial(paper, seed=s) for s in range(4)]
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
@@ -601,25 +599,3 @@ def test_a_learner_that_another_threads_run_has_in_hand_is_refused(paper):
     assert {quantity for _, quantity in refusals} <= {"Learner", "situation", "Learner.learn"}
     alone = devlearn.Trial(paper, seed=1).free_learning(200_000)
     assert np.array_equal(record.motion, alone.motion)
-
-
-def test_who_waits_for_another_threads_run_hears_ctrl_c(paper):
-    script = """
-import os, signal, threading, time, devlearn
-paper = devlearn.World.load("paper")
-running, done = threading.Event(), threading.Event()
-def run():
-    running.set()
-    devlearn.Trial(paper).free_learning(10_000_000)
-    done.set()
-threading.Thread(target=run, daemon=True).start()
-running.wait()
-time.sleep(0.2)
-threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
-try:
-    devlearn.Robot(paper).sonar((2.0, 0.5, 0.0))
-except KeyboardInterrupt:
-    os._exit(1 if done.is_set() else 0)
-os._exit(2)
-"""
-    assert subprocess.run([sys.executable, "-c", script]).returncode == 0

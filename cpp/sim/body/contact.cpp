@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 
 #include "body/box2d_vector.hpp"
 #include "body/kinematics.hpp"
@@ -63,6 +64,19 @@ void Scene::add(const Edge& edge, Point from, double reach) {
 void Scene::add(const Circle& circle, Point from, double) {
   circles.emplace_back().m_p = vector(circle.center - from);
   circles.back().m_radius = static_cast<float>(circle.radius);
+}
+
+void prepare_box2d() {
+  static std::once_flag prepared;
+  std::call_once(prepared, [] {
+    b2World physics(b2Vec2(0.0f, 0.0f));
+    b2CircleShape shape;
+    shape.m_radius = 1.0f;
+    b2BodyDef body;
+    body.type = b2_dynamicBody;
+    for (int i = 0; i < 2; ++i) physics.CreateBody(&body)->CreateFixture(&shape, 1.0f);
+    physics.Step(0.01f, 1, 1);
+  });
 }
 
 Drive drive_in_box2d(const Scene& scene, int iterations) {

@@ -42,7 +42,12 @@ struct Drive {
   bool touched = false;  ///< anything, at any time
 };
 
-/// Drives in a Box2D world of its own.
+/// To be called before any drive, from any thread. Box2D keeps a table of kinds of contacts in a
+/// global, which the first contact of the process fills; no other global is written by what is used
+/// of it: its counters are those of distances and of continuous collision, which nothing here has.
+void prepare_box2d();
+
+/// Drives in a Box2D world of its own. In several threads at once, after prepare_box2d().
 Drive drive_in_box2d(const Scene& scene, int iterations);
 
 }  // namespace devlearn

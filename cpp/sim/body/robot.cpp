@@ -51,8 +51,10 @@ bool operator==(const RobotDef& a, const RobotDef& b) noexcept { return detail::
 // --- Robot -------------------------------------------------------------------------------------
 
 Robot::Robot(const World& world, const RobotDef& def)
-    : world_(std::make_shared<World>(world)), def_(def) {
-  def_.validate();
+    : world_(std::make_shared<World>(world)),
+      def_((def.validate(), def)),
+      sonars_(std::make_unique<Sonars>(world_, def_)) {
+  prepare_box2d();
 }
 Robot::~Robot() = default;
 Robot::Robot(Robot&&) noexcept = default;
@@ -96,7 +98,6 @@ bool Robot::allowed(const Pose& pose, bool* allowed) const {
 
 void Robot::sonar(const Pose& pose, double* echoes) const {
   require_place(pose);
-  if (!sonars_) sonars_ = std::make_unique<Sonars>(*world_, def_);
   sonars_->listen(pose, echoes);
 }
 

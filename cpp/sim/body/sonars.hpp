@@ -2,6 +2,8 @@
 
 #include <box2d/box2d.h>
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "devlearn/robot.hpp"
@@ -11,18 +13,21 @@
 namespace devlearn {
 
 /// The sonars of a robot: rays in a Box2D world of all that stands still, seen from the arena's
-/// origin, so that floats lose nothing to where the arena lies.
+/// origin, so that floats lose nothing to where the arena lies. It is made when first asked.
 class Sonars {
  public:
-  Sonars(const World& world, const RobotDef& robot);
+  Sonars(std::shared_ptr<const World> world, const RobotDef& robot);
 
   /// Echo distances from the rim of a body at a pose, as Robot::sonar has them.
   void listen(const Pose& pose, double* echoes) const;
 
  private:
-  b2World standing_;
+  void build() const;
+
+  std::shared_ptr<const World> world_;
+  mutable std::once_flag built_;
+  mutable std::unique_ptr<b2World> standing_;
   std::vector<double> angles_;
-  Point origin_;
   double radius_, range_;
 };
 

@@ -168,7 +168,8 @@ def _completed(
         for i in remaining:
             yield i, function(jobs[i])
         return
-    # Processes, not threads: Box2D keeps global counters. Spawned, so that they inherit nothing.
+    # Processes, not threads: Python code of jobs would take turns. Spawned, so that they inherit
+    # nothing.
     context = multiprocessing.get_context("spawn")
     executor = ProcessPoolExecutor(
         min(workers, len(remaining)), mp_context=context, initializer=_end_with_parent

@@ -65,8 +65,8 @@ struct WheelSpeeds {
 };
 
 /// The robot's body in a world: how it moves and what its sonars hear. Const throughout: a step is
-/// a pure function of (world, pose, motion). Box2D keeps global counters, so robots in several
-/// threads of one process are a data race; run them in processes.
+/// a pure function of (world, pose, motion). Any number of threads may ask one robot, or several,
+/// at once.
 class Robot {
  public:
   /// Throws InvalidValue.
@@ -118,7 +118,7 @@ class Robot {
  private:
   std::shared_ptr<const World> world_;
   RobotDef def_;
-  mutable std::unique_ptr<Sonars> sonars_;  // made when first asked
+  std::unique_ptr<Sonars> sonars_;
 };
 
 }  // namespace devlearn
