@@ -9,7 +9,8 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <limits>
+#include <thread>
 #include <utility>
 
 #include "devlearn/error.hpp"
@@ -51,45 +52,100 @@ bool flush_folder(const std::string& place) {
   return failed == 0 || failed == EINVAL || failed == ENOTSUP;
 }
 
-bool is_named(int descriptor, const std::string& name) {
+// What lies at the name of a side file may be another's: it is never written to, only removed.
+bool is_ours(int descriptor, const std::string& name) {
   struct stat open {
   }, named{};
-  return ::fstat(descriptor, &open) == 0 && ::stat(name.c_str(), &named) == 0 &&
-         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+  return ::fstat(descriptor, &open) == 0 && ::lstat(name.c_str(), &named) == 0 &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino && S_ISREG(open.st_mode) &&
+         open.st_nlink == 1 && open.st_uid == ::geteuid();
+}
+
+// Whether the name can be tried again: nothing is there now, or it is no file that we could lock.
+bool is_cleared(const std::string& name) {
+  struct stat named {};
+  if (::lstat(name.c_str(), &named) != 0) return errno == ENOENT;
+  if (S_ISDIR(named.st_mode)) return false;
+  const bool another =
+      !S_ISREG(named.st_mode) || named.st_nlink != 1 || named.st_uid != ::geteuid();
+  return !another || ::unlink(name.c_str()) == 0;
+}
+
+// Locks a file; false, with errno, where another has it for too long.
+bool is_locked(int descriptor, std::chrono::milliseconds patience) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + patience;
+  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EINTR) continue;
+    if (errno != EWOULDBLOCK || Clock::now() >= end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
 }
 
 // A file of this name, empty, and locked until it is closed; -1, with errno, where there is none.
-int open_locked(const std::string& name) {
-  for (;;) {
-    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (descriptor < 0) return -1;
-    int failed = 0;
-    while (::flock(descriptor, LOCK_EX) != 0) {
-      if (errno == EINTR) continue;
-      failed = errno;
-      break;
+int open_locked(const std::string& name, std::chrono::milliseconds patience) {
+  constexpr int kMostTries = 100;  // others may come and go, but not for ever
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    const int descriptor =
+        ::open(name.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    if (descriptor < 0) {
+      const int failed = errno;
+      const bool perhaps_another = failed == ELOOP || failed == ENXIO || failed == EACCES;
+      if (perhaps_another && is_cleared(name)) {
+        errno = failed;
+        continue;
+      }
+      errno = failed;
+      return -1;
     }
+    const bool locked = is_locked(descriptor, patience);
     // Who held the lock before may have renamed or removed the file that was opened.
-    const bool ours = failed == 0 && is_named(descriptor, name);
-    if (ours && ::ftruncate(descriptor, 0) == 0) return descriptor;
-    if (ours) {
-      failed = errno;
+    if (locked && is_ours(descriptor, name)) {
+      if (::ftruncate(descriptor, 0) == 0) return descriptor;
+      const int failed = errno;
       ::unlink(name.c_str());
+      ::close(descriptor);
+      errno = failed;
+      return -1;
     }
+    const int failed = errno;
     ::close(descriptor);
-    errno = failed;
-    if (failed != 0) return -1;
+    if (!locked || !is_cleared(name)) {
+      errno = failed;
+      return -1;
+    }
   }
+  errno = EBUSY;
+  return -1;
+}
+
+// A file that takes another's place keeps its mode and, where that is allowed, its owner.
+void take_mode_of(const std::string& place, int descriptor) {
+  struct stat there {
+  }, here{};
+  if (::stat(place.c_str(), &there) != 0 || ::fstat(descriptor, &here) != 0) return;
+  if (there.st_uid != here.st_uid || there.st_gid != here.st_gid) {
+    static_cast<void>(::fchown(descriptor, there.st_uid, there.st_gid));
+  }
+  static_cast<void>(::fchmod(descriptor, there.st_mode & 0777));
 }
 
 }  // namespace
 
-SideFile::SideFile(const std::string& path)
+SideFile::SideFile(const std::string& path, std::chrono::milliseconds patience)
     : path_(path),
       place_(place_of(path)),
       side_(place_ + ".devlearn-tmp"),
-      descriptor_(open_locked(side_)) {
+      descriptor_(open_locked(side_, patience)) {
+  if (descriptor_ < 0 && errno == EWOULDBLOCK) {
+    throw FileError(path_, "",
+                    "being written by another for " + std::to_string(patience.count()) +
+                        " ms, who holds " + side_,
+                    kWritable);
+  }
   if (descriptor_ < 0) refuse();
+  take_mode_of(place_, descriptor_);
 }
 
 SideFile::~SideFile() {
@@ -127,40 +183,49 @@ constexpr const char* kReadable = "a file that can be read";
 
 }  // namespace
 
-std::vector<std::byte> bytes_of_file(const std::string& path) {
-  const auto refuse = [&](const char* what) { throw FileError(path, "", what, kReadable); };
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) refuse(std::strerror(errno));
-  struct Closed {
-    int descriptor;
-    ~Closed() { ::close(descriptor); }
-  } const closed{descriptor};
+InputFile::InputFile(const std::string& path) : path_(path) {
+  // Opened such that a pipe without a writer does not keep it waiting.
+  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor_ < 0) refuse(std::strerror(errno));
   struct stat status {};
-  if (::fstat(descriptor, &status) != 0) refuse(std::strerror(errno));
+  if (::fstat(descriptor_, &status) != 0) refuse(std::strerror(errno));
   if (S_ISDIR(status.st_mode)) refuse(std::strerror(EISDIR));
   if (!S_ISREG(status.st_mode)) refuse("not a regular file");
+  size_ = static_cast<std::uint64_t>(status.st_size);
+}
 
-  std::vector<std::byte> bytes(static_cast<std::size_t>(status.st_size));
+InputFile::~InputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::size_t InputFile::read(void* into, std::size_t most) {
+  char* const first = static_cast<char*>(into);
   std::size_t size = 0;
-  while (size < bytes.size()) {
-    const auto count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
+  while (size < most) {
+    const auto count = ::read(descriptor_, first + size, most - size);
     if (count < 0 && errno != EINTR) refuse(std::strerror(errno));
     if (count == 0) break;  // it was cut off meanwhile
     if (count > 0) size += static_cast<std::size_t>(count);
   }
-  bytes.resize(size);
-  return bytes;
+  return size;
+}
+
+void InputFile::refuse(const char* what) {
+  // The destructor of what was not constructed is not called.
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  throw FileError(path_, "", what, kReadable);
+}
+
+std::uint64_t memory_here() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), bytes = ::sysconf(_SC_PAGESIZE);
+  if (pages < 0 || bytes < 0) return std::numeric_limits<std::uint64_t>::max();
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes);
 }
 
 std::string text_of_file(const std::string& path, std::size_t most) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text;
-  char part[1 << 16];
-  while (file && text.size() <= most) {
-    file.read(part, static_cast<std::streamsize>(std::min(sizeof part, most + 1 - text.size())));
-    text.append(part, static_cast<std::size_t>(file.gcount()));
-  }
-  if (!file.is_open() || file.bad()) throw FileError(path, "", std::strerror(errno), kReadable);
+  InputFile file(path);
+  std::string text(static_cast<std::size_t>(std::min<std::uint64_t>(file.size(), most + 1)), '\0');
+  text.resize(file.read(text.data(), text.size()));
   return text;
 }
 

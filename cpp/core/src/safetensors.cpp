@@ -173,11 +173,68 @@ void write(const Contents& contents, std::ostream& stream) {
   });
 }
 
+namespace {
+
+// Of a file of this size, whose first bytes these are.
+std::uint64_t header_length(const std::byte* bytes, std::uint64_t size, const std::string& source) {
+  if (size < kLengthBytes) {
+    throw FileError(source, "", std::to_string(size) + " bytes", "a snapshot: at least 8 bytes");
+  }
+  std::uint64_t length = 0;
+  for (std::size_t i = kLengthBytes; i-- > 0;) {
+    length = length << 8 | static_cast<std::uint64_t>(bytes[i]);
+  }
+  if (length > size - kLengthBytes) {
+    throw FileError(source, "header length", std::to_string(length),
+                    "at most " + std::to_string(size - kLengthBytes) +
+                        " bytes; the file is cut off, or no snapshot");
+  }
+  if (length > kHeader.bytes) {
+    throw FileError(source, "header length", std::to_string(length),
+                    "at most " + std::to_string(kHeader.bytes) + " bytes");
+  }
+  return length;
+}
+
+}  // namespace
+
 std::vector<std::byte> to_bytes(const Contents& contents) {
   std::vector<std::byte> bytes;
   write(contents, [&](const std::byte* data, std::size_t size) {
     bytes.insert(bytes.end(), data, data + size);
   });
+  return bytes;
+}
+
+std::vector<std::byte> read_file(const std::string& path) {
+  InputFile file(path);
+  std::vector<std::byte> bytes(kLengthBytes);
+  bytes.resize(file.read(bytes.data(), bytes.size()));
+  const std::uint64_t length = header_length(bytes.data(), file.size(), path);
+  bytes.resize(kLengthBytes + length);
+  bytes.resize(kLengthBytes + file.read(bytes.data() + kLengthBytes, length));
+  const std::string_view header(reinterpret_cast<const char*>(bytes.data()) + kLengthBytes,
+                                bytes.size() - kLengthBytes);
+  const json::Document document(header, path, kHeader, "header");
+  std::uint64_t described = 0;
+  document.root().each_field([&](const std::string& name, const json::Node& field) {
+    if (name == kMetadata) return;
+    const json::Node offsets = field["data_offsets"];
+    if (offsets.size() == 2) described = std::max(described, offsets[1].whole_number());
+  });
+  const std::uint64_t data_size = file.size() - kLengthBytes - length;
+  if (described != data_size) {
+    throw FileError(path, "", std::to_string(data_size) + " bytes of data",
+                    std::to_string(described) + ", as the header describes");
+  }
+  const std::uint64_t memory = memory_here();
+  if (file.size() > memory) {
+    throw FileError(path, "", std::to_string(file.size()) + " bytes",
+                    "at most " + std::to_string(memory) + ", the memory of this machine");
+  }
+  const std::size_t begun = bytes.size();
+  bytes.resize(file.size());
+  bytes.resize(begun + file.read(bytes.data() + begun, bytes.size() - begun));
   return bytes;
 }
 
@@ -278,18 +335,7 @@ void require_checksum(const std::string& found, std::string_view header, const s
 }  // namespace
 
 Contents read(const std::byte* bytes, std::size_t size, const std::string& source) {
-  if (size < kLengthBytes) {
-    throw FileError(source, "", std::to_string(size) + " bytes", "a snapshot: at least 8 bytes");
-  }
-  std::uint64_t length = 0;
-  for (std::size_t i = kLengthBytes; i-- > 0;) {
-    length = length << 8 | static_cast<std::uint64_t>(bytes[i]);
-  }
-  if (length > size - kLengthBytes) {
-    throw FileError(source, "header length", std::to_string(length),
-                    "at most " + std::to_string(size - kLengthBytes) +
-                        " bytes; the file is cut off, or no snapshot");
-  }
+  const std::uint64_t length = header_length(bytes, size, source);
   const std::string_view header(reinterpret_cast<const char*>(bytes) + kLengthBytes, length);
   const std::byte* const data = bytes + kLengthBytes + length;
   const std::size_t data_size = size - kLengthBytes - length;

@@ -38,6 +38,9 @@ void write(const Contents& contents, const std::string& path);
 void write(const Contents& contents, std::ostream& stream);
 std::vector<std::byte> to_bytes(const Contents& contents);
 
+/// All of a file. What its header does not describe, or no memory here could hold, is refused
+/// before it is read. Throws FileError.
+std::vector<std::byte> read_file(const std::string& path);
 /// All of a stream.
 std::vector<std::byte> read_stream(std::istream& stream);
 

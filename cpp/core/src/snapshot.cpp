@@ -211,7 +211,7 @@ std::vector<std::byte> to_bytes(const Learner& learner) {
 }
 
 Learner load_learner(const std::string& path) {
-  const std::vector<std::byte> bytes = bytes_of_file(path);
+  const std::vector<std::byte> bytes = safetensors::read_file(path);
   return load_learner(bytes.data(), bytes.size(), path);
 }
 

@@ -238,7 +238,7 @@ void Trial::resume(const Pose& pose, std::int32_t round, bool round_open) {
 
 // A new round, from a pose.
 void Trial::put(const Pose& pose) {
-  require_count("round", std::int64_t{round_} + 1, 1, kLastRound + 1);
+  require_count("round", std::int64_t{round_} + 1, 1, kLastRound);
   robot_.require_place(pose);
   const Observation there = sense(pose);
   close_round(false);

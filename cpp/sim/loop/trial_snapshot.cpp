@@ -260,7 +260,7 @@ std::vector<std::byte> to_bytes(const Trial& trial, const SaveOptions& options) 
 }
 
 TrialSnapshot load_trial(const std::string& path, const LoadOptions& options) {
-  const std::vector<std::byte> bytes = bytes_of_file(path);
+  const std::vector<std::byte> bytes = safetensors::read_file(path);
   return load_trial(bytes.data(), bytes.size(), options, path);
 }
 

@@ -20,6 +20,8 @@ constexpr double kFurthest = 1e5;  // of its origin from 0 [m]; beyond, rounding
 constexpr double kLeastSize = 0.01, kGreatestSize = 1000.0;  // of an obstacle [m]
 constexpr double kLeastSpacing = 0.01;                       // of corners [m]; Box2D bears no less
 constexpr double kLeastArea = 1e-4;                          // of a polygon [m^2]
+// What is a centimetre in decimals is one, whatever its corners were rounded to [m, m^2].
+constexpr double kRounding = 1e-9;
 constexpr std::size_t kMostObstacles = 100'000;
 constexpr std::size_t kMostCorners = 100'000;  // of a polygon
 constexpr std::size_t kMostCornersInAll = 1'000'000;
@@ -76,11 +78,21 @@ std::vector<Point> corners_of(const Rectangle& rectangle) {
   return {corner(-w, -h), corner(w, -h), corner(w, h), corner(-w, h)};
 }
 
+// Some formats end a ring with its first corner.
+void open_rings(std::vector<Obstacle>& obstacles) {
+  for (Obstacle& obstacle : obstacles) {
+    auto* const polygon = std::get_if<Polygon>(&obstacle);
+    if (polygon == nullptr) continue;
+    std::vector<Point>& corners = polygon->corners;
+    if (corners.size() > 3 && corners.front() == corners.back()) corners.pop_back();
+  }
+}
+
 void require_simple(const std::string& quantity, const std::vector<Point>& corners) {
   const std::size_t n = corners.size();
   for (std::size_t i = 0; i < n; ++i) {
     const double gap = distance(corners[i], corners[(i + 1) % n]);
-    if (!(gap >= kLeastSpacing)) {
+    if (!(gap >= kLeastSpacing - kRounding)) {
       throw InvalidValue(indexed(quantity, (i + 1) % n), to_text(gap) + " m from the corner before",
                          "corners at least " + to_text(kLeastSpacing) + " m apart");
     }
@@ -92,7 +104,7 @@ void require_simple(const std::string& quantity, const std::vector<Point>& corne
                        "an outline that neither crosses nor touches itself");
   }
   const double area = 0.5 * std::abs(doubled_area(corners));
-  if (!(area >= kLeastArea)) {
+  if (!(area >= kLeastArea - kRounding)) {
     throw InvalidValue(quantity, "an area of " + to_text(area) + " m^2",
                        "at least " + to_text(kLeastArea) + " m^2");
   }
@@ -165,7 +177,9 @@ void require_start(const World& world) {
 
 }  // namespace
 
-World::World(WorldDef def) : def_(std::make_shared<WorldDef>(std::move(def))) {
+World::World(WorldDef def) {
+  open_rings(def.obstacles);
+  def_ = std::make_shared<WorldDef>(std::move(def));
   require_text("name", def_->name);
   require_text("description", def_->description);
   require_in("arena.width", def_->width, kLeastSide, kGreatestSide, "m");
