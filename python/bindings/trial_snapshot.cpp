@@ -60,14 +60,21 @@ TrialSnapshot from_bytes(const py::bytes& bytes, const LoadOptions& options,
 void bind_trial_snapshot(py::module_& m) {
   m.def(
       "record_in_snapshot",
-      [](const py::bytes& bytes, const std::string& source) -> py::object {
+      [](const py::object& path) -> py::object {
+        const std::string source = file_path(path);
         // A record does not depend on the agent.
-        TrialSnapshot snapshot = from_bytes(bytes, {std::make_shared<RandomAgent>(0)}, source);
+        TrialSnapshot snapshot = [&] {
+          const NoGil no_gil;
+          return load_trial(source, {std::make_shared<RandomAgent>(0)});
+        }();
         if (!snapshot.record) throw FileError(source, "record", "nothing", "a record");
         return py::make_tuple(columns(std::move(*snapshot.record)), snapshot.trial.world(),
                               snapshot.trial.config(), snapshot.trial.seed(), snapshot.note);
       },
-      py::arg("snapshot"), py::arg("source"), "The record in a trial's snapshot, for Record.load.");
+      py::arg("path"), "The record in a trial's snapshot, for Record.load.");
+  m.def(
+      "require_record", [](const py::object& record) { record_of(record).validate(); },
+      py::arg("record"), "Raises InvalidValue unless a Record holds what a trial can write.");
 
   auto cls = py::reinterpret_borrow<py::class_<Trial>>(m.attr("Trial"));
   cls.def(

@@ -44,6 +44,7 @@ __all__: list[str] = [
     "load_config",
     "pose_columns",
     "record_in_snapshot",
+    "require_record",
     "shortest_path",
     "step_columns",
     "wrapped_heading",
@@ -1538,9 +1539,14 @@ def load_config(path: typing.Any) -> TrialConfig:
     A TrialConfig from a JSON file, an object of its fields; those left out keep their defaults. Raises FileError.
     """
 
-def record_in_snapshot(snapshot: bytes, source: str) -> typing.Any:
+def record_in_snapshot(path: typing.Any) -> typing.Any:
     """
     The record in a trial's snapshot, for Record.load.
+    """
+
+def require_record(record: typing.Any) -> None:
+    """
+    Raises InvalidValue unless a Record holds what a trial can write.
     """
 
 def shortest_path(

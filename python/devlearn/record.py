@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import csv
+import difflib
 import hashlib
 import io
 import json
 import os
+import stat
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
-from .errors import FileError, InvalidValue
+from . import _core, _npz
+from .errors import FileError, InvalidValue, MissingExtra
+
+if TYPE_CHECKING:
+    import pandas
 
 FORMAT = "devlearn-record"
 FORMAT_VERSION = 1
@@ -74,8 +79,7 @@ class Record:  # noqa: D101 - made of the columns
     ) -> None:
         """From the columns above and a provenance; raises InvalidValue where they do not fit."""
         _check(columns)
-        if not isinstance(provenance, Mapping):
-            raise InvalidValue("provenance", type(provenance).__name__, "a mapping")
+        _check_provenance(provenance)
         for name in (*STEP_COLUMNS, *POSE_COLUMNS):
             setattr(self, name, columns[name])
         self.rounds = np.empty(len(columns["rounds"]), _ROUNDS_DTYPE)  # without padding
@@ -135,6 +139,36 @@ class Record:  # noqa: D101 - made of the columns
     def __len__(self) -> int:
         """How many steps."""
         return len(self.situation)
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of its columns: those of steps, of poses, ``rounds``, ``echoes`` if there."""
+        yield from (*STEP_COLUMNS, *POSE_COLUMNS, "rounds")
+        if self.echoes is not None:
+            yield "echoes"
+
+    def __contains__(self, name: object) -> bool:
+        return name in tuple(self)
+
+    def __getitem__(self, name: str) -> npt.NDArray[Any]:
+        """The column of this name. Raises KeyError, saying which there are."""
+        if name not in self:
+            near = difflib.get_close_matches(str(name), self, 1)
+            meant = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(self)}"
+            raise KeyError(f"no column {name!r}; {meant}")
+        column: npt.NDArray[Any] = getattr(self, name)
+        return column
+
+    def __eq__(self, other: object) -> bool:
+        """Whether provenance and all columns are the same, value by value."""
+        if not isinstance(other, Record):
+            return NotImplemented
+        return (
+            self.provenance == other.provenance
+            and tuple(self) == tuple(other)
+            and all(np.array_equal(self[name], other[name]) for name in self)
+        )
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         arrived = int(np.count_nonzero(self.rounds["arrived"]))
@@ -224,59 +258,63 @@ class Record:  # noqa: D101 - made of the columns
     def load(cls, path: str | os.PathLike[str]) -> Record:
         """Read what ``save`` wrote, or the record in a trial's snapshot. Raises FileError."""
         name = os.fsdecode(path)
+        with _npz.open_regular(name, _npz.WHAT) as file:
+            if file.read(9)[8:] == b"{":  # where a snapshot's header begins
+                return cls._of_snapshot(file, name)
+            file.seek(0)
+            columns, provenance = cls._in_npz(file, name)
         try:
-            with open(name, "rb") as file:
-                begin = file.read(9)
-                if begin[8:] == b"{":  # where a snapshot's header begins
-                    return cls._of_snapshot(begin + file.read(), name)
-                file.seek(0)
-                with np.load(file, allow_pickle=False) as columns_in_file:
-                    columns = dict(columns_in_file)
-            header = json.loads(str(columns.pop("header")))
-            found, version = header["format"], header["version"]
-            provenance = header["provenance"]
-        except FileError:
-            raise
-        except FileNotFoundError as error:
-            raise FileError(name, "", "no such file", "a record saved by devlearn") from error
-        except Exception as error:  # zipfile, zlib, numpy and json each have their own
-            raise FileError(
-                name, "", f"unreadable: {error}", "a record saved by devlearn"
-            ) from error
-        if found != FORMAT:
-            raise FileError(name, "format", found, FORMAT)
+            record = cls(columns, provenance)
+            _core.require_record(record)
+        except InvalidValue as error:
+            field = error.quantity.removeprefix("record.")
+            raise FileError(name, field, error.value, error.allowed) from error
+        return record
+
+    @staticmethod
+    def _in_npz(file: IO[bytes], name: str) -> tuple[dict[str, npt.NDArray[Any]], Any]:
+        names = ("header", *STEP_COLUMNS, *POSE_COLUMNS, "rounds", "echoes")
+        found = _npz.Columns(file, name, dict.fromkeys(names))
+        header = _npz.json_object(found.text("header"), name, "header")
+        if header.get("format") != FORMAT:
+            raise FileError(name, "format", header.get("format"), FORMAT)
+        version = header.get("version")
         if type(version) is not int or version < 1:
             raise FileError(name, "version", version, f"in [1, {FORMAT_VERSION}]")
         if version > FORMAT_VERSION:
             raise FileError(
                 name, "version", version, f"at most {FORMAT_VERSION}; a newer devlearn wrote it"
             )
-        try:
-            return cls(columns, provenance)
-        except InvalidValue as error:
-            raise FileError(name, error.quantity, error.value, error.allowed) from error
+        # How long each column is follows from the rounds; a record of rounds only has none.
+        rounds = found.array("rounds", _ROUNDS_DTYPE, (None,))
+        steps, poses = sum(rounds["steps"].tolist()), len(rounds)
+        if len(rounds) > 0 and found.length("x") == 0:
+            steps, poses = 0, 0
+        columns = {n: found.array(n, dtype, (steps,)) for n, dtype in STEP_COLUMNS.items()}
+        columns |= {n: found.array(n, dtype, (steps + poses,)) for n, dtype in POSE_COLUMNS.items()}
+        columns["rounds"] = rounds
+        if "echoes" in found:
+            columns["echoes"] = found.array("echoes", np.dtype(np.float64), (steps, None))
+        return columns, header.get("provenance")
 
     @classmethod
-    def _of_snapshot(cls, content: bytes, name: str) -> Record:
-        columns, world, config, seed, note = _core.record_in_snapshot(content, name)
+    def _of_snapshot(cls, file: IO[bytes], name: str) -> Record:
+        columns, world, config, seed, note = _core.record_in_snapshot(name)
         try:
             provenance = json.loads(note)
         except (ValueError, RecursionError):
             provenance = None
         if not isinstance(provenance, dict):
             # Saved by C++, where records have no provenance: the trial's then.
-            size = int.from_bytes(content[:8], "little")
-            entries = json.loads(content[8 : 8 + size])["__metadata__"]
+            file.seek(0)
+            size = int.from_bytes(file.read(8), "little")
+            entries = json.loads(file.read(size))["__metadata__"]
             provenance = provenance_of(world, config, seed, None)
             provenance |= {k: entries[k] for k in ("devlearn", "commit", "box2d", "agent")}
         return cls(columns, provenance)
 
-    def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write one row a step: the step columns, the pose after it, and the echoes if recorded.
-
-        Comment lines with ``#`` at the head give the provenance. Raises InvalidValue for a record
-        of rounds only.
-        """
+    def _by_step(self) -> dict[str, npt.NDArray[Any]]:
+        """A row a step: the step columns, the pose after it, and the echoes if recorded."""
         self._require_steps()
         after = np.ones(len(self.x), dtype=bool)
         after[np.cumsum(self.rounds["steps"] + 1) - self.rounds["steps"] - 1] = False
@@ -284,15 +322,47 @@ class Record:  # noqa: D101 - made of the columns
         columns |= {name: getattr(self, name)[after] for name in POSE_COLUMNS}
         if self.echoes is not None:
             columns |= {f"echo_{i}": column for i, column in enumerate(self.echoes.T)}
+        return columns
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row a step: the step columns, the pose after it, and the echoes if recorded.
+
+        Kinds and events are categories by name, ``attrs["provenance"]`` tells where it came from.
+        Raises InvalidValue for a record of rounds only, MissingExtra where pandas is missing.
+        """
+        try:
+            import pandas
+        except ImportError as error:
+            raise MissingExtra("Record.to_pandas", "pandas", "experiments") from error
+        frame = pandas.DataFrame(self._by_step())
+        for name, members in (("kind", _core.Kind), ("event", _core.Event)):
+            names = [member.name.lower() for member in members]
+            frame[name] = pandas.Categorical.from_codes(frame[name], names)
+        frame.attrs["provenance"] = self.provenance
+        return frame
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write one row a step: the step columns, the pose after it, and the echoes if recorded.
+
+        The first line names the columns, so that ``pandas.read_csv(path)`` and
+        ``numpy.genfromtxt(path, delimiter=",", names=True)`` read it; truth is 0 or 1, kinds and
+        events are their numbers. The provenance goes into a file beside it, of the same name with
+        ``.json`` after it; there is none beside a device or a link. Raises InvalidValue for a
+        record of rounds only, FileError.
+        """
+        columns = self._by_step()
         lists = [
             (column.astype(np.int8) if column.dtype == np.bool_ else column).tolist()
             for column in columns.values()
         ]
         with written_aside(path, "w") as file:
-            file.write(f"# {json.dumps(self.provenance)}\n")
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(columns)
             writer.writerows(zip(*lists))
+        if stat.S_ISREG(os.lstat(path).st_mode):
+            with written_aside(os.fsdecode(path) + ".json", "w") as file:
+                json.dump(self.provenance, file, indent=1)
+                file.write("\n")
 
 
 def provenance_of(
@@ -339,6 +409,20 @@ def written_aside(path: str | os.PathLike[str], mode: str) -> Iterator[IO[Any]]:
 
 def _holds_rounds_only(rounds: npt.NDArray[np.void], x: npt.NDArray[np.float64]) -> bool:
     return len(rounds) > 0 and len(x) == 0
+
+
+def _check_provenance(provenance: object) -> None:
+    if not isinstance(provenance, Mapping):
+        raise InvalidValue("provenance", type(provenance).__name__, "a mapping")
+    shape = {"devlearn": str, "commit": str, "box2d": str, "agent": str, "config": Mapping}
+    for name, kind in {**shape, "world": Mapping}.items():
+        if name in provenance and not isinstance(provenance[name], kind):
+            given = type(provenance[name]).__name__
+            raise InvalidValue(f"provenance.{name}", given, f"a {kind.__name__}")
+    for name in ("name", "hash", "json"):
+        text = provenance.get("world", {}).get(name, "")
+        if not isinstance(text, str):
+            raise InvalidValue(f"provenance.world.{name}", type(text).__name__, "a str")
 
 
 def _check(columns: Mapping[str, npt.NDArray[Any]]) -> None:

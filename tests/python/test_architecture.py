@@ -54,6 +54,7 @@ def test_the_help_of_the_command_line_loads_nothing_that_it_does_not_need():
     assert {name for name in loaded if name.startswith("devlearn.")} == {
         "devlearn.cli",
         "devlearn.cli.reproduce",
+        "devlearn.cli.console",
         "devlearn.cli.run",
         "devlearn.errors",
     }

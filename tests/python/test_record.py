@@ -1,10 +1,12 @@
 """Records: their columns, their rounds, and their files."""
 
+import copy
 import csv
 import json
 import os
 import pathlib
 import pickle
+import re
 import resource
 import stat
 import subprocess
@@ -118,7 +120,7 @@ def test_a_record_of_nothing_is_a_record(paper, tmp_path):
         record.save(tmp_path / "none.npz")
         assert differences(record, Record.load(tmp_path / "none.npz")) == []
         record.to_csv(tmp_path / "none.csv")
-        assert len((tmp_path / "none.csv").read_text().splitlines()) == 2
+        assert len((tmp_path / "none.csv").read_text().splitlines()) == 1
         assert repr(record)
 
 
@@ -395,7 +397,7 @@ def test_devices_are_written_to_and_never_replaced(record, tmp_path):
     assert stat.S_ISCHR(os.stat("/dev/full").st_mode)
     code = "import devlearn; devlearn.Trial(devlearn.World()).run(5).to_csv('/dev/stdout')"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert len(done.stdout.splitlines()) == 7
+    assert len(done.stdout.splitlines()) == 6
 
 
 def test_files_are_open_to_whom_the_umask_allows(record, tmp_path):
@@ -414,9 +416,8 @@ def test_csv_reads_back_to_the_same_values(record, tmp_path):
     path = tmp_path / "record.csv"
     record.to_csv(path)
     with path.open(newline="") as file:
-        comment = file.readline()
         rows = list(csv.DictReader(file))
-    assert json.loads(comment.removeprefix("# ")) == record.provenance
+    assert json.loads((tmp_path / "record.csv.json").read_text()) == record.provenance
     assert len(rows) == len(record)
     after = np.concatenate([record.path(i)[1:] for i in range(3)])
     expected = {name: getattr(record, name) for name in STEP_COLUMNS}
@@ -428,7 +429,7 @@ def test_csv_reads_back_to_the_same_values(record, tmp_path):
         assert (read == column).all(), name
         if column.dtype.kind != "f":
             assert all(row[name] == str(int(row[name])) for row in rows)
-    table = np.genfromtxt(path, delimiter=",", names=True, comments="#", skip_header=1)
+    table = np.genfromtxt(path, delimiter=",", names=True)
     assert (table["sef"] == record.sef).all()
     assert (table["collided"] == record.collided).all()
 
@@ -436,5 +437,182 @@ def test_csv_reads_back_to_the_same_values(record, tmp_path):
 def test_csv_keeps_infinite_clearance(tmp_path):
     record = Trial(World.load("empty"), seed=1).free_learning(20)
     record.to_csv(pathlib.Path(tmp_path / "e.csv"))
-    table = np.genfromtxt(tmp_path / "e.csv", delimiter=",", names=True, skip_header=1)
+    table = np.genfromtxt(tmp_path / "e.csv", delimiter=",", names=True)
     assert np.isinf(table["clearance"]).all()
+
+
+# --- as a table -----------------------------------------------------------------------------------
+
+
+def test_columns_are_had_by_name_and_counted_out(record):
+    names = [*STEP_COLUMNS, *POSE_COLUMNS, "rounds", "echoes"]
+    assert list(record) == names
+    assert all(record[name] is getattr(record, name) for name in names)
+    assert "sef" in record
+    assert "provenance" not in record
+    with pytest.raises(KeyError, match="no column 'sefs'; did you mean 'sef'"):
+        record["sefs"]
+    with pytest.raises(KeyError, match="there are round, situation"):
+        record[3]
+    brief = Trial(World()).run(5)
+    assert "echoes" not in brief
+    with pytest.raises(KeyError):
+        brief["echoes"]
+
+
+def test_records_are_equal_by_value(record, tmp_path):
+    record.save(tmp_path / "record.npz")
+    again = Record.load(tmp_path / "record.npz")
+    assert again == record
+    assert copy.deepcopy(record) == record
+    again.sef[3] += 1e-9
+    assert again != record
+    other = copy.copy(record)
+    other.provenance = {**record.provenance, "seed": 99}
+    assert other != record
+    assert record != 3
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(record)
+
+
+def test_pandas_gets_a_row_a_step_with_names_for_kinds_and_events(record, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    frame = record.to_pandas()
+    assert len(frame) == len(record)
+    assert list(frame["kind"].cat.categories) == ["explore", "exploit", "exhausted", "unstated"]
+    assert (frame["kind"].cat.codes.to_numpy() == record.kind).all()
+    assert (frame["event"].cat.codes.to_numpy() == record.event).all()
+    assert (frame["event"] == "extension").sum() == (record.event == 1).sum()
+    last = np.cumsum(record.rounds["steps"] + 1) - 1  # of each round's poses
+    assert frame["x"].iloc[-1] == record.x[last[-1]]
+    assert frame.attrs["provenance"] == record.provenance
+    record.to_csv(tmp_path / "record.csv")
+    read = pandas.read_csv(tmp_path / "record.csv")
+    assert list(read.columns) == list(frame.columns)
+    assert (read["heading"] == frame["heading"]).all()
+    with pytest.raises(devlearn.InvalidValue, match="rounds only"):
+        Trial(World()).run(5, rounds_only=True).to_pandas()
+
+
+# --- hostile files --------------------------------------------------------------------------------
+
+
+def changed(record, **columns):
+    """The record with some values set: name=(index, value)."""
+    values = {name: record[name].copy() for name in record}
+    for name, (index, value) in columns.items():
+        values[name][index] = value
+    return Record(values, record.provenance)
+
+
+@pytest.mark.parametrize(
+    ("column", "index", "value", "says"),
+    [
+        ("motion", 5, -7, "motion[5]: got -7"),
+        ("kind", 2, 77, "kind[2]: got 77; expected a whole number in [0, 3]"),
+        ("event", 0, 200, "event[0]: got 200; expected a whole number in [0, 4]"),
+        ("situation", 1, -1, "situation[1]: got -1"),
+        ("x", 4, np.nan, "x[4]: got nan"),
+        ("heading", 4, np.inf, "heading[4]: got inf"),
+        ("sef", 3, np.nan, "sef[3]: got nan"),
+        ("goal_distance", 3, -1.0, "goal_distance[3]: got -1"),
+        ("clearance", 3, np.nan, "clearance[3]: got nan"),
+        ("round", 3, 2, "round[3]: got 2; expected 1, that of its round"),
+        ("round", 3, 0, "round[3]: got 0"),
+        ("explored_count", 7, -1, "explored_count[7]: got -1"),
+        ("reduced", 7, -1, "reduced[7]: got -1"),
+        ("arrived", 3, True, "rounds[0].arrived: got false"),
+    ],
+)
+def test_a_record_that_no_trial_can_write_is_refused_by_column_and_row(
+    record, tmp_path, column, index, value, says
+):
+    changed(record, **{column: (index, value)}).save(tmp_path / "bad.npz")
+    with pytest.raises(devlearn.FileError, match=re.escape(says)) as refused:
+        Record.load(tmp_path / "bad.npz")
+    assert refused.value.file == str(tmp_path / "bad.npz")
+
+
+@pytest.mark.parametrize(
+    ("provenance", "says"),
+    [
+        ({"world": 3}, "provenance.world"),
+        ({"world": {"name": 3}}, "provenance.world.name"),
+        ({"config": []}, "provenance.config"),
+        ({"commit": None}, "provenance.commit"),
+    ],
+)
+def test_a_provenance_of_another_shape_is_refused(record, provenance, says):
+    with pytest.raises(devlearn.InvalidValue, match=says):
+        Record({name: record[name] for name in record}, provenance)
+
+
+LARGE = """
+import resource, sys, zipfile
+import devlearn
+resource.setrlimit(resource.RLIMIT_AS, (600 << 20,) * 2)
+try:
+    devlearn.Record.load(sys.argv[1])
+except devlearn.FileError as error:
+    print(error)
+"""
+
+
+@pytest.mark.parametrize("column", ["surprise", "sef", "rounds", "echoes", "header"])
+def test_a_column_that_unpacks_to_a_gigabyte_is_refused_unread(saved, tmp_path, column):
+    path = tmp_path / "large.npz"
+    kind, length = {"rounds": ("|u1", 2**30), "header": ("<U268435456", 1)}.get(
+        column, ("<f8", 2**27)
+    )
+    shape = () if column == "header" else (length,)
+    text = repr({"descr": kind, "fortran_order": False, "shape": shape})
+    head = b"\x93NUMPY\x01\x00" + (118).to_bytes(2, "little") + text.encode().ljust(117) + b"\n"
+    with zipfile.ZipFile(saved) as old, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as new:
+        for info in old.infolist():
+            if info.filename != f"{column}.npy":
+                new.writestr(info.filename, old.read(info))
+        with new.open(f"{column}.npy", "w", force_zip64=True) as file:
+            file.write(head)
+            for _ in range(1 << 10):
+                file.write(bytes(1 << 20))
+    ran = subprocess.run(
+        [sys.executable, "-c", LARGE, path], capture_output=True, text=True, timeout=60
+    )
+    assert ran.stderr == ""
+    assert f"large.npz: {column}: got " in ran.stdout
+
+
+def test_mutated_files_are_refused_or_are_records(saved, tmp_path):
+    content = saved.read_bytes()
+    generator = np.random.default_rng(5)
+    path = tmp_path / "mutated.npz"
+    refused = 0
+    for _ in range(400):
+        mutated = bytearray(content)
+        for _ in range(generator.integers(1, 4)):
+            mutated[generator.integers(len(mutated))] = generator.integers(256)
+        if generator.random() < 0.2:
+            del mutated[generator.integers(len(mutated)) :]
+        path.write_bytes(mutated)
+        try:
+            assert len(Record.load(path)) == 600
+        except devlearn.FileError as error:
+            assert "allow_pickle" not in str(error)
+            refused += 1
+    assert refused > 200
+
+
+def test_an_array_of_objects_is_refused_without_advice_to_unpickle_it(saved, tmp_path):
+    path = tmp_path / "objects.npz"
+    with np.load(saved) as old:
+        np.savez(path, **{**old, "sef": np.array([None] * 600, object)}, allow_pickle=True)
+    with pytest.raises(devlearn.FileError) as refused:
+        Record.load(path)
+    assert "pickle" not in str(refused.value)
+
+
+@pytest.mark.parametrize("make", [os.mkfifo, os.mkdir])
+def test_what_is_no_file_is_refused_at_once(tmp_path, make):
+    make(tmp_path / "it")
+    with pytest.raises(devlearn.FileError, match="not a regular file"):
+        Record.load(tmp_path / "it")

@@ -87,6 +87,29 @@ void Record::validate() const {
   require_count("record.sonar_count", sonar_count, 0, 720);
   require_size("echoes", echoes.size(), steps() * static_cast<std::size_t>(sonar_count));
   detail::each_column(kStepColumns, [&](auto& column) { column.require_values(*this); });
+  detail::each_column(kPoseColumns, [&](auto& column) { column.require_values(*this); });
+  if (!brief) require_steps_in_rounds();
+}
+
+// What `rounds` says of the steps is what they say.
+void Record::require_steps_in_rounds() const {
+  std::size_t step = 0;
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    bool reached = false;
+    for (const std::size_t end = step + static_cast<std::size_t>(rounds[i].steps); step < end;
+         ++step) {
+      if (round[step] != rounds[i].round) {
+        throw InvalidValue("record.round[" + std::to_string(step) + "]",
+                           std::to_string(round[step]),
+                           std::to_string(rounds[i].round) + ", that of its round");
+      }
+      reached |= arrived[step] != 0;
+    }
+    if (reached && !rounds[i].arrived) {
+      throw InvalidValue("record.rounds[" + std::to_string(i) + "].arrived", "false",
+                         "true, as one of its steps arrived");
+    }
+  }
 }
 
 }  // namespace devlearn

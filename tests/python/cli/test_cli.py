@@ -125,7 +125,7 @@ def test_run_writes_the_records_that_a_trial_makes(tmp_path):
         written = Record.load(folder / f"{name}.npz")
         for column in ("round", "situation", "motion", "sef", "x", "echoes", "rounds"):
             assert np.array_equal(getattr(written, column), getattr(record, column)), column
-        assert len((folder / f"{name}.csv").read_text().splitlines()) == 2 + len(record)
+        assert len((folder / f"{name}.csv").read_text().splitlines()) == 1 + len(record)
         assert written.provenance["seed"] == 7
     with (folder / "rounds.csv").open() as file:
         rows = list(csv.reader(file))

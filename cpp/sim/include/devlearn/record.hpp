@@ -69,17 +69,17 @@ struct Record {
                "before the step: S_i, in which the motion was chosen"),
         column("motion", &R::motion, &Step::motion, from(0), "index in M"),
         column("kind", &R::kind, &Step::kind, whole(0, 3), "why it was chosen, a Kind"),
-        column("sef", &R::sef, &Step::sef, Anything{}, "after the step: SEF(t+1)"),
-        column("smf", &R::smf, &Step::smf, Anything{}, "SEF(t+1) - SEF(t), Eq. 8"),
-        column("smf_used", &R::smf_used, &Step::smf_used, Anything{},
+        column("sef", &R::sef, &Step::sef, finite(), "after the step: SEF(t+1)"),
+        column("smf", &R::smf, &Step::smf, finite(), "SEF(t+1) - SEF(t), Eq. 8"),
+        column("smf_used", &R::smf_used, &Step::smf_used, finite(),
                "what was learned from: min(smf, -1) for a collision"),
         column("collided", &R::collided, &Step::collided, whole(0, 1),
                "whether the body touched something during the step"),
         column("arrived", &R::arrived, &Step::arrived, whole(0, 1),
                "after the step: d_g <= goal_radius"),
-        column("goal_distance", &R::goal_distance, &Step::goal_distance, Anything{},
+        column("goal_distance", &R::goal_distance, &Step::goal_distance, at_least_zero(),
                "after the step: d_g [m]"),
-        column("clearance", &R::clearance, &Step::clearance, Anything{}, "after the step: d_o [m]"),
+        column("clearance", &R::clearance, &Step::clearance, at_least_zero(), "after the step: d_o [m]"),
         column("event", &R::event, &Step::event, whole(0, 4), "what the outcome changed, an Event"),
         column("reduced", &R::reduced, &Step::reduced, from(0),
                "motions that reduction development removed"),
@@ -91,9 +91,9 @@ struct Record {
   /// The columns of one value a pose.
   static constexpr auto pose_columns() {
     using namespace detail;
-    return std::tuple{column("x", &Record::x, &Pose::x, Anything{}, "of the robot's centre [m]"),
-                      column("y", &Record::y, &Pose::y, Anything{}, "likewise [m]"),
-                      column("heading", &Record::heading, &Pose::heading, Anything{},
+    return std::tuple{column("x", &Record::x, &Pose::x, finite(), "of the robot's centre [m]"),
+                      column("y", &Record::y, &Pose::y, finite(), "likewise [m]"),
+                      column("heading", &Record::heading, &Pose::heading, finite(),
                              "counter-clockwise from x [degrees]")};
   }
 
@@ -118,9 +118,12 @@ struct Record {
   void count(const Step& step) noexcept;
 
   /// Throws InvalidValue, naming the column, unless all are of the length that the rounds make, or
-  /// of rounds only empty, and hold what a trial can write: rounds from 1, counts at least 0, known
-  /// kinds and events.
+  /// of rounds only empty, and hold what a trial can write: rounds from 1, each step in its round,
+  /// counts at least 0, known kinds and events, finite poses.
   void validate() const;
+
+ private:
+  void require_steps_in_rounds() const;
 };
 
 }  // namespace devlearn

@@ -15,8 +15,15 @@
 /// pose) stands in which, what it may be and what it means.
 namespace devlearn::detail {
 
-/// Any number, NaN too.
-struct Anything {};
+/// Numbers that are finite.
+constexpr Interval finite() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {-kInfinity, kInfinity, false, false, ""};
+}
+/// Numbers from 0 on, infinity too.
+constexpr Interval at_least_zero() {
+  return {0.0, std::numeric_limits<double>::infinity(), true, true, ""};
+}
 
 /// Whole numbers from `low` to the largest of their type.
 constexpr WholeNumbers from(long long low) { return {low, std::numeric_limits<long long>::max()}; }
@@ -48,13 +55,15 @@ struct Column {
 
   /// Throws InvalidValue unless each of the values may stand here.
   void require_values(const Record& record) const {
-    if constexpr (!std::is_same_v<Range, Anything>) {
-      const long long most = std::min<long long>(range.high, std::numeric_limits<T>::max());
-      const std::vector<T>& all = record.*values;
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i] >= range.low && all[i] <= most) continue;
-        require_count("record." + std::string(name) + "[" + std::to_string(i) + "]", all[i],
-                      range.low, most);
+    const std::vector<T>& all = record.*values;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (range.allows(all[i])) continue;
+      const std::string quantity = "record." + std::string(name) + "[" + std::to_string(i) + "]";
+      if constexpr (std::is_same_v<Range, Interval>) {
+        throw InvalidValue(quantity, to_text(all[i]), range.text());
+      } else {
+        const long long most = std::min<long long>(range.high, std::numeric_limits<T>::max());
+        require_count(quantity, all[i], range.low, most);
       }
     }
   }
