@@ -1,11 +1,21 @@
 #include "devlearn/robot.hpp"
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "config.hpp"
 #include "devlearn/shortest_path.hpp"
 
 namespace devlearn::python {
+namespace {
+
+std::optional<std::int64_t> count_or_none(std::int64_t steps) {
+  if (steps == ShortestPath::kNoWay) return std::nullopt;
+  return steps;
+}
+
+}  // namespace
 
 void bind_robot(py::module_& m) {
   def_config<RobotDef>(
@@ -75,20 +85,73 @@ void bind_robot(py::module_& m) {
       .def_property_readonly("definition", &Robot::def, py::return_value_policy::copy,
                              "Its RobotDef.");
 
+  py::class_<ShortestPath> path(
+      m, "ShortestPath",
+      "The shortest way that the robot's own motions allow, or what is known of it: what "
+      "shortest_path returns.");
+  path.def_property_readonly(
+          "poses",
+          [](const ShortestPath& self) {
+            std::vector<double> values;
+            for (const Pose& pose : self.poses) {
+              values.insert(values.end(), {pose.x, pose.y, pose.heading});
+            }
+            return moved_array<double>(std::move(values),
+                                       {static_cast<py::ssize_t>(self.poses.size()), 3});
+          },
+          "(steps + 1, 3) [m, m, degrees], from the start to the first within goal_radius; empty "
+          "where no way was found.")
+      .def_property_readonly(
+          "steps", [](const ShortestPath& self) { return count_or_none(self.steps()); },
+          "Steps of the way; None where none was found.")
+      .def_property_readonly(
+          "lower_bound", [](const ShortestPath& self) { return count_or_none(self.lower_bound); },
+          "No way has fewer steps; None where there is no way at all.")
+      .def_property_readonly("exact", &ShortestPath::exact,
+                             "Whether `steps` is the least, or there is no way; False where the "
+                             "search gave up before it knew.")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("<devlearn.ShortestPath: steps {}, lower_bound {}, exact {}>")
+            .format(self.attr("steps"), self.attr("lower_bound"), self.attr("exact"));
+      });
+
   m.def(
       "shortest_path",
       [](const Robot& robot, const std::optional<Pose>& start, double goal_radius) {
-        const std::vector<Pose> way =
-            shortest_path(robot, start.value_or(robot.world().def().start), goal_radius);
-        std::vector<double> values;
-        for (const Pose& pose : way) values.insert(values.end(), {pose.x, pose.y, pose.heading});
-        return moved_array<double>(std::move(values), {static_cast<py::ssize_t>(way.size()), 3});
+        const Pose from = start.value_or(robot.world().def().start);
+        Watch watch;
+        ShortestPath path;
+        {
+          const NoGil no_gil;
+          path = shortest_path(robot, from, goal_radius, std::ref(watch));
+        }
+        watch.rethrow();
+        return path;
       },
       py::arg("robot"), py::arg("start") = py::none(), py::arg("goal_radius") = 0.1,
-      "The shortest way, in steps, that the robot's own motions allow from `start` (None: the "
-      "world's) to within goal_radius of the target, touching nothing: poses (steps + 1, 3) [m, m, "
-      "degrees]; empty where there is no way. What a learnt path is measured against. Found by A* "
-      "over poses, those in one cell of a quarter step counting as one. Raises InvalidValue.");
+      "The shortest way, in steps, that the robot's own motions allow from `start` (None: the\n"
+      "world's) to within goal_radius [m] of the target, touching nothing: a ShortestPath. What a\n"
+      "learnt path is measured against.\n\n"
+      "Found by A* over poses, those in one cell of a quarter step counting as one. Where the\n"
+      "flooding of a grid shows that there is no way, that is known at once. In large arenas A* "
+      "may\n"
+      "give up, after 4 million poses: then the way is one that may be longer than the shortest, "
+      "and\n"
+      "`lower_bound` says by how much at most. Takes seconds at most, and hears Ctrl-C. Raises\n"
+      "InvalidValue.");
+  m.def(
+      "may_reach_target",
+      [](const Robot& robot, const std::optional<Pose>& start, double goal_radius) {
+        const Pose from = start.value_or(robot.world().def().start);
+        const NoGil no_gil;
+        return may_reach_target(robot, from, goal_radius);
+      },
+      py::arg("robot"), py::arg("start") = py::none(), py::arg("goal_radius") = 0.1,
+      "Whether the robot's body may get from `start` (None: the world's) to within goal_radius "
+      "[m]\n"
+      "of the target: much faster than shortest_path. False is certain; True up to cells of half "
+      "a\n"
+      "step or a 2048th of the arena, and to what the robot's motions allow. Raises InvalidValue.");
 }
 
 }  // namespace devlearn::python

@@ -29,6 +29,7 @@ __all__: list[str] = [
     "Rectangle",
     "Robot",
     "RobotDef",
+    "ShortestPath",
     "SituationGrid",
     "SituationMemory",
     "StateEvaluation",
@@ -42,6 +43,7 @@ __all__: list[str] = [
     "exponential",
     "heading_of_yaw",
     "load_config",
+    "may_reach_target",
     "pose_columns",
     "record_in_snapshot",
     "require_record",
@@ -1036,6 +1038,32 @@ class Robot:
         (left, right) wheel speeds of the drive, held for one sample time [m/s].
         """
 
+class ShortestPath:
+    """
+    The shortest way that the robot's own motions allow, or what is known of it: what shortest_path returns.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def exact(self) -> bool:
+        """
+        Whether `steps` is the least, or there is no way; False where the search gave up before it knew.
+        """
+    @property
+    def lower_bound(self) -> int | None:
+        """
+        No way has fewer steps; None where there is no way at all.
+        """
+    @property
+    def poses(self) -> numpy.ndarray:
+        """
+        (steps + 1, 3) [m, m, degrees], from the start to the first within goal_radius; empty where no way was found.
+        """
+    @property
+    def steps(self) -> int | None:
+        """
+        Steps of the way; None where none was found.
+        """
+
 class Step:
     """
     Everything about one step of a trial.
@@ -1539,6 +1567,17 @@ def load_config(path: typing.Any) -> TrialConfig:
     A TrialConfig from a JSON file, an object of its fields; those left out keep their defaults. Raises FileError.
     """
 
+def may_reach_target(
+    robot: Robot,
+    start: collections.abc.Sequence[float] | None = None,
+    goal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+) -> bool:
+    """
+    Whether the robot's body may get from `start` (None: the world's) to within goal_radius [m]
+    of the target: much faster than shortest_path. False is certain; True up to cells of half a
+    step or a 2048th of the arena, and to what the robot's motions allow. Raises InvalidValue.
+    """
+
 def record_in_snapshot(path: typing.Any) -> typing.Any:
     """
     The record in a trial's snapshot, for Record.load.
@@ -1553,9 +1592,17 @@ def shortest_path(
     robot: Robot,
     start: collections.abc.Sequence[float] | None = None,
     goal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.1,
-) -> numpy.ndarray:
+) -> ShortestPath:
     """
-    The shortest way, in steps, that the robot's own motions allow from `start` (None: the world's) to within goal_radius of the target, touching nothing: poses (steps + 1, 3) [m, m, degrees]; empty where there is no way. What a learnt path is measured against. Found by A* over poses, those in one cell of a quarter step counting as one. Raises InvalidValue.
+    The shortest way, in steps, that the robot's own motions allow from `start` (None: the
+    world's) to within goal_radius [m] of the target, touching nothing: a ShortestPath. What a
+    learnt path is measured against.
+
+    Found by A* over poses, those in one cell of a quarter step counting as one. Where the
+    flooding of a grid shows that there is no way, that is known at once. In large arenas A* may
+    give up, after 4 million poses: then the way is one that may be longer than the shortest, and
+    `lower_bound` says by how much at most. Takes seconds at most, and hears Ctrl-C. Raises
+    InvalidValue.
     """
 
 def wrapped_heading(heading: typing.SupportsFloat | typing.SupportsIndex) -> float:

@@ -3,6 +3,7 @@
 import copy
 import json
 import pickle
+import time
 
 import devlearn
 import numpy as np
@@ -151,10 +152,106 @@ def test_a_motion_outside_m_is_refused_by_name(motion):
 
 def test_the_shortest_path_is_a_way_of_the_robots_own(paper):
     robot = Robot(paper)
-    way = devlearn.shortest_path(robot)
+    way = devlearn.shortest_path(robot).poses
     assert way.shape[1] == 3
     assert tuple(way[0]) == paper.start
     assert np.hypot(*(way[-1, :2] - paper.target)) <= 0.1
     for pose, after in zip(way[:-1], way[1:]):
         outcomes = [robot.step(pose, motion) for motion in range(5)]
         assert any(not hit and np.allclose(p, after, atol=1e-9) for p, hit in outcomes)
+
+
+def opened(width, gap):
+    """An arena of this width with a wall through its middle, and a gap at its end."""
+    wall = devlearn.Rectangle(((width - gap) / 2, width / 2), (width - gap, 0.1))
+    far = width - 1
+    return World(width, width, (0.5, 0.5, 0), (far, far), [wall])
+
+
+def is_way_of(robot, path):
+    """Whether every step is one that the robot can make, without touching anything."""
+    for pose, after in zip(path.poses[:-1], path.poses[1:]):
+        ways = [robot.step(pose, motion) for motion in range(5)]
+        if not any(not hit and np.allclose(p, after, atol=1e-9) for p, hit in ways):
+            return False
+    return True
+
+
+@pytest.mark.parametrize(("width", "target", "steps"), [(10, 9.5, 262), (100, 99, 2883)])
+def test_the_shortest_path_through_an_open_arena_is_found_at_once_whatever_its_size(
+    width, target, steps
+):
+    robot = Robot(World(width, width, target=(target, target)))
+    started = time.monotonic()
+    path = devlearn.shortest_path(robot)
+    assert time.monotonic() - started < 10  # 0.2 s on a machine that does nothing else
+    assert (path.steps, path.lower_bound, path.exact) == (steps, steps, True)
+    assert path.poses.shape == (steps + 1, 3)
+    assert is_way_of(robot, path)
+
+
+def test_no_way_of_the_robots_headings_is_shorter_than_the_shortest_path():
+    """Straight on along one of its headings it is the distance, rounded up to steps."""
+    for heading in (0, 30, 90, 210):
+        angle = np.radians(heading)
+        start = (50, 50, heading)
+        target = (50 + 40.02 * np.cos(angle), 50 + 40.02 * np.sin(angle))
+        path = devlearn.shortest_path(Robot(World(100, 100, start, target)))
+        assert (path.steps, path.exact) == (np.ceil((40.02 - 0.1) / 0.05), True)
+
+
+@pytest.mark.parametrize("width", [10, 40, 100])
+def test_where_the_search_gives_up_a_way_and_a_bound_are_given(width):
+    robot = Robot(opened(width, 1.0))
+    path = devlearn.shortest_path(robot)
+    corner = width - 1.1 - 0.5, width / 2 - 0.5  # the wall's end, with room for the body
+    straight = np.hypot(*corner) + (width / 2 - 1)
+    assert path.lower_bound <= path.steps <= 1.1 * straight / 0.05
+    assert path.exact == (path.lower_bound == path.steps)
+    assert is_way_of(robot, path)
+
+
+def test_where_there_is_no_way_that_is_known_at_once():
+    robot = Robot(opened(100, 0.0))
+    started = time.monotonic()
+    path = devlearn.shortest_path(robot)
+    assert time.monotonic() - started < 10
+    assert (path.steps, path.lower_bound, path.exact) == (None, None, True)
+    assert path.poses.shape == (0, 3)
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.15, 0.19])
+def test_a_gap_too_narrow_for_the_body_is_no_way(gap):
+    robot = Robot(opened(10, gap))
+    assert not devlearn.may_reach_target(robot)
+    assert devlearn.shortest_path(robot).steps is None
+
+
+@pytest.mark.parametrize("world", devlearn.worlds())
+def test_where_there_is_a_way_the_target_may_be_reached(world):
+    robot = Robot(World.load(world))
+    assert devlearn.shortest_path(robot).exact
+    assert devlearn.may_reach_target(robot)
+
+
+def test_who_stands_at_the_target_has_no_step_to_go(paper):
+    robot = Robot(paper)
+    path = devlearn.shortest_path(robot, (*paper.target, 0))
+    assert (path.steps, path.lower_bound, path.exact, len(path.poses)) == (0, 0, True, 1)
+    assert devlearn.may_reach_target(robot, (*paper.target, 0))
+
+
+def test_motions_that_do_not_lead_there_are_no_way():
+    straight = Robot(
+        World(start=(1, 1, 0), target=(4, 4)), devlearn.RobotDef(steering_angles=[0.0])
+    )
+    assert devlearn.may_reach_target(straight)  # by motions of any kind
+    path = devlearn.shortest_path(straight)
+    assert (path.steps, path.exact) == (None, True)
+
+
+@pytest.mark.parametrize("call", [devlearn.shortest_path, devlearn.may_reach_target])
+def test_a_start_or_radius_that_cannot_be_is_refused_by_name(call, paper):
+    refused(lambda: call(Robot(paper), (0, 0, 0)), "start")
+    refused(lambda: call(Robot(paper), goal_radius=0), "goal_radius")
+    refused(lambda: call(Robot(paper), goal_radius=np.nan), "goal_radius")

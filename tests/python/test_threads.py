@@ -380,3 +380,34 @@ def test_who_only_watches_changes_no_history(paper):
         20, 500, stop=threading.Event(), progress=lambda done, total: None
     )
     assert differences(watched, Trial(paper, seed=3).path_learning(20, 500)) == []
+
+
+# --- the shortest path ---------------------------------------------------------------------------
+
+
+def hard():
+    """A world in which the search takes seconds."""
+    walls = [devlearn.Rectangle((50 - (-1) ** i * 0.5, 9.0 * i), (99.0, 0.1)) for i in range(1, 11)]
+    return World(100, 100, (0.5, 0.5, 0), (50, 99), walls)
+
+
+def test_the_shortest_path_hears_ctrl_c_and_lets_others_run():
+    robot, progress, over = devlearn.Robot(hard()), [], threading.Event()
+
+    def watch():
+        while not over.is_set():
+            progress.append(time.monotonic())
+            time.sleep(0.001)
+
+    (thread,) = in_threads(watch)
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    started = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        devlearn.shortest_path(robot)
+    took = time.monotonic() - started
+    over.set()
+    thread.join()
+    timer.join()
+    assert took < 1.0  # 0.35 s on a machine that does nothing else
+    assert len(progress) > 30

@@ -24,6 +24,8 @@ double steering_angle(const RobotDef& robot, int motion) {
 
 double step_length(const RobotDef& robot) noexcept { return robot.speed * robot.sample_time; }
 
+double free_room(const RobotDef& robot) noexcept { return robot.radius + kFreeMargin; }
+
 // Eq. 1: theta' = theta + dtheta
 double heading_after(const RobotDef& robot, const Pose& pose, int motion) {
   return wrapped_heading(pose.heading + steering_angle(robot, motion));
@@ -53,7 +55,7 @@ bool way_is_free(const World& world, const RobotDef& robot, const Pose& from,
                  const Pose& to) noexcept {
   constexpr double kRounding = 1e-9;  // [m], more than all of it
   const Point start{from.x, from.y}, end{to.x, to.y};
-  const double room = robot.radius + kFreeMargin, length = step_length(robot);
+  const double room = free_room(robot), length = step_length(robot);
   const double in_sight = world.surfaces().distance_at_least(end);
   if (std::min(in_sight, world.wall_distance(end)) > room + length + kRounding) return true;
   const double at_end = world.clearance(end, true);

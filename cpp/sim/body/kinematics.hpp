@@ -12,6 +12,9 @@ namespace devlearn {
 /// v t_s, how far a step drives [m].
 double step_length(const RobotDef& robot) noexcept;
 
+/// How far from everything free ways keep the body's centre, at the least [m].
+double free_room(const RobotDef& robot) noexcept;
+
 /// Eq. 1, the turn: the heading of the drive [degrees]. Throws InvalidValue for a motion outside M.
 double heading_after(const RobotDef& robot, const Pose& pose, int motion);
 

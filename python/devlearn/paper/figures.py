@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import plots
-from .._core import Robot, Trial, TrialConfig, World, shortest_path
+from .._core import Trial, TrialConfig, World
 from .._files import made_folder
 from ..analysis.episodes import find_entry_and_window, find_episodes
 from ..errors import InvalidValue
@@ -60,7 +60,7 @@ class Gallery:
     @cached_property
     def shortest(self) -> int:
         """Steps of the shortest path from the start."""
-        return len(shortest_path(Robot(self.world, self.config.robot))) - 1
+        return places.shortest(self.world, self.config)
 
     @styled
     def draw(self, number: int) -> list[Drawn]:

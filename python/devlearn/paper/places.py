@@ -9,6 +9,14 @@ from .._types import Pose
 from ..errors import InvalidValue
 
 
+def shortest(world: World, config: TrialConfig) -> int:
+    """Steps of the shortest path from the world's start; InvalidValue where there is none."""
+    path = shortest_path(Robot(world, config.robot), goal_radius=config.goal_radius)
+    if path.steps is None:
+        raise InvalidValue("world", "no way to the target", "a target that the robot can reach")
+    return path.steps
+
+
 def new_starts(world: World, config: TrialConfig, count: int = 8) -> list[tuple[Pose, int]]:
     """New start poses for the learning-ability test, each with the steps of its shortest path.
 
@@ -26,9 +34,9 @@ def new_starts(world: World, config: TrialConfig, count: int = 8) -> list[tuple[
             continue
         if min(math.dist((x, y), world.target), math.dist((x, y), world.start[:2])) < 1.5:
             continue
-        way = shortest_path(robot, (x, y, heading), config.goal_radius)
-        if len(way) > 1:
-            starts.append((Pose(x, y, heading), len(way) - 1))
+        steps = shortest_path(robot, (x, y, heading), config.goal_radius).steps
+        if steps:
+            starts.append((Pose(x, y, heading), steps))
             if len(starts) == count:
                 return starts
     raise InvalidValue("world", f"{len(starts)} new starts", f"room for {count}, far from target")

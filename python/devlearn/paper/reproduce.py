@@ -111,7 +111,7 @@ def _run(
     for name in schedule.PRESETS:
         config = schedule.preset(name)
         starts = places.new_starts(world, config)
-        shortest = len(_core.shortest_path(_core.Robot(world, config.robot))) - 1
+        shortest = places.shortest(world, config)
 
         def planned(
             config: _core.TrialConfig,

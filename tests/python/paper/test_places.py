@@ -16,7 +16,7 @@ def test_new_starts_are_free_far_and_timed_by_the_shortest_path(paper):
         assert math.dist(pose[:2], paper.target) >= 1.5
         assert math.dist(pose[:2], paper.start[:2]) >= 1.5
         assert pose.heading % 30 == 0
-        assert steps == len(shortest_path(Robot(paper), pose)) - 1
+        assert steps == shortest_path(Robot(paper), pose).steps
         Trial(paper.with_start(pose))
     assert len({pose.heading for pose, _ in starts}) > 2
 

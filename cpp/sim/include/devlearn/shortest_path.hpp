@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <limits>
 #include <vector>
 
 #include "devlearn/robot.hpp"
@@ -7,14 +10,49 @@
 
 namespace devlearn {
 
+/// What shortest_path found.
+struct ShortestPath {
+  /// The lower bound where there is no way at all.
+  static constexpr std::int64_t kNoWay = std::numeric_limits<std::int64_t>::max();
+
+  /// From the start to the first within the goal's radius; empty where no way was found.
+  std::vector<Pose> poses;
+  /// No way has fewer steps; kNoWay where there is none.
+  std::int64_t lower_bound = 0;
+
+  /// Whether a way was found.
+  bool found() const noexcept { return !poses.empty(); }
+  /// Steps of the way; kNoWay where none was found.
+  std::int64_t steps() const noexcept {
+    return found() ? static_cast<std::int64_t>(poses.size()) - 1 : kNoWay;
+  }
+  /// Whether that is known to be the least, or that there is no way.
+  bool exact() const noexcept { return steps() == lower_bound; }
+};
+
 /// The shortest way, in steps, that the robot's own motions allow from a pose to the target
-/// without touching anything: what a learnt path is measured against.
+/// without touching anything: what a learnt path is measured against. goal_radius: of the target,
+/// in (0, 100] m.
 ///
-/// A search by A* over poses, of which those in one cell of a quarter step with one heading
-/// [degrees] count as one; so a way could in rare cases be a step shorter still. goal_radius: of
-/// the target, in (0, 100] m.
-/// Returns the poses, from `start` to the first within goal_radius; empty where there is no way.
-/// Throws InvalidValue for a start where the body does not fit, or a world of more than 10^9 cells.
-std::vector<Pose> shortest_path(const Robot& robot, const Pose& start, double goal_radius = 0.1);
+/// First a grid of at most 2^22 cells over the arena is flooded from the target, through every cell
+/// that may hold a place where the body fits: what that does not reach has no way. Then A* goes
+/// over poses, of which those in one cell of a quarter step with one heading [degrees] count as
+/// one; `exact` is meant up to that, so a way could in rare cases be a step shorter still. Where A*
+/// has not ended after 2^22 poses (an arena of some 10 m among obstacles, or 100 m in the open),
+/// its lower bound is kept, and a search that follows the flood's distances, for as many poses
+/// again, finds a way that may be longer than the shortest, mostly by a few per cent. Where that
+/// finds none either, it is open whether there is one. So an arena of any size takes seconds, and
+/// less than 1 GB.
+///
+/// `interrupt` is called every now and then; where it returns true the search ends with what it
+/// knows. Throws InvalidValue for a start where the body does not fit.
+ShortestPath shortest_path(const Robot& robot, const Pose& start, double goal_radius = 0.1,
+                           const std::function<bool()>& interrupt = {});
+
+/// Whether a body of that size may get from a pose to within goal_radius of the target, by motions
+/// of any kind: the flood of shortest_path alone. False is certain; true up to the flood's cells,
+/// half a step or a 2048th of the arena, and to what the robot's motions allow. Throws InvalidValue
+/// as shortest_path does.
+bool may_reach_target(const Robot& robot, const Pose& start, double goal_radius = 0.1);
 
 }  // namespace devlearn

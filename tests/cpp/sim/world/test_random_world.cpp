@@ -79,7 +79,7 @@ TEST_CASE("In every random world the robot gets from the start to the target") {
       }
     }
     const World hardest = World::random(kind, 41, 1.0);
-    CHECK_FALSE(shortest_path(Robot(hardest, {}), hardest.def().start).empty());
+    CHECK(shortest_path(Robot(hardest, {}), hardest.def().start).found());
   }
 }
 

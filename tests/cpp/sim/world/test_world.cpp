@@ -874,13 +874,13 @@ TEST_CASE("Wherever the arena lies, the shortest path and a trial's situations a
   const World paper = World::load(DEVLEARN_SOURCE_DIR "/python/devlearn/worlds/paper.json");
   const WorldDef def = on_lattice(paper.def());
   const World here(def);
-  const std::vector<Pose> way = shortest_path(Robot(here, {}), def.start);
+  const std::vector<Pose> way = shortest_path(Robot(here, {}), def.start).poses;
   Trial trial(here, {}, 3);
   Record record;
   trial.free_learning(record, 4000);
   for (const Point by : kShifts) {
     const World there(shifted(def, by));
-    const std::vector<Pose> other = shortest_path(Robot(there, {}), there.def().start);
+    const std::vector<Pose> other = shortest_path(Robot(there, {}), there.def().start).poses;
     REQUIRE(other.size() == way.size());
     for (std::size_t i = 0; i < way.size(); ++i) REQUIRE(gap(way[i], other[i], by) < 1e-8);
 
