@@ -661,12 +661,14 @@ def test_a_generator_goes_on_from_its_state():
     refused(lambda: devlearn.Random.from_state(np.ones(5, np.uint64)), "state")
 
 
-def test_the_guides_agent_runs_and_is_saved_as_it_stands(tmp_path, monkeypatch):
+def test_the_guides_code_runs_and_its_agent_is_saved_as_it_stands(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     guide = (pathlib.Path(__file__).parents[2] / "docs" / "agents.md").read_text(encoding="utf-8")
-    (block,) = re.findall(r"```python\n(.*?)```", guide, re.DOTALL)
+    agent, long_run = re.findall(r"```python\n(.*?)```", guide, re.DOTALL)
     names = {}
-    exec(block, names)
+    exec(long_run, names)
+    assert 0 < names["records"][0].rounds["steps"][0] < 10**9
+    exec(agent, names)
     trial, again = names["trial"], names["again"]
     assert (again.agent.values == trial.agent.values).all()
     assert differences(again.run(200), trial.run(200)) == []
