@@ -14,8 +14,11 @@ void bind_evaluation(py::module_& m) {
            "SEF at a distance d_g in [0, 1e6] m from the target and d_o >= 0 m (inf where there is "
            "no obstacle) from the nearest obstacle. Numbers give a float; arrays broadcast. Raises "
            "InvalidValue.")
-      .def("__call__", py::vectorize(&StateEvaluation::operator()), py::arg("goal_distance"),
-           py::arg("obstacle_distance"));
+      .def("__call__", py::vectorize([](const StateEvaluation* self, double goal, double obstacle) {
+             take_a_breath();
+             return (*self)(goal, obstacle);
+           }),
+           py::arg("goal_distance"), py::arg("obstacle_distance"));
 }
 
 }  // namespace devlearn::python

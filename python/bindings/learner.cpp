@@ -130,6 +130,12 @@ py::bytes snapshot_bytes(const Learner& learner) {
   return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
+Learner copy(const Learner& learner) {
+  const InHand reading(learner, InHand::For::kReading);
+  const NoGil no_gil;
+  return learner;
+}
+
 Learner from_bytes(const py::bytes& bytes) {
   const std::string_view view = bytes;
   const NoGil no_gil;
@@ -250,7 +256,6 @@ void bind_learner(py::module_& m) {
   bind_results(m);
   bind_explanation(m);  // it shows results, and the learner shows it
 
-  const auto copy = [](Idle self) { return Learner(*self); };
   py::class_<Learner, std::shared_ptr<Learner>> cls(
       m, "Learner",
       "The sensorimotor developmental learner: a situation in, a motion out; how good it was in,\n"
@@ -331,8 +336,10 @@ void bind_learner(py::module_& m) {
           "Ids of the situations experienced, in that order: an int64 array.")
       .def(
           "reserve",
-          [](Idle self, Whole<ReserveTag> situations, bool touch) {
-            self->reserve(situations.value, touch ? Pages::kTouched : Pages::kUntouched);
+          [](Learner& self, Whole<ReserveTag> situations, bool touch) {
+            const InHand in_hand(self, InHand::For::kRunning);
+            const NoGil no_gil;
+            self.reserve(situations.value, touch ? Pages::kTouched : Pages::kUntouched);
           },
           py::arg("situations"), py::arg("touch").noconvert() = false,
           "Makes room for so many situations in all; touch: and takes the memory from the system "
@@ -384,10 +391,10 @@ void bind_learner(py::module_& m) {
       .def(py::pickle(
           &snapshot_bytes,
           [](const py::bytes& bytes) { return std::make_shared<Learner>(from_bytes(bytes)); }))
-      .def("copy", copy, "An independent learner that goes on alike.")
-      .def("__copy__", copy)
+      .def("copy", &copy, "An independent learner that goes on alike.")
+      .def("__copy__", &copy)
       .def(
-          "__deepcopy__", [](Idle self, const py::dict&) { return Learner(*self); },
+          "__deepcopy__", [](const Learner& self, const py::dict&) { return copy(self); },
           py::arg("memo"))
       .def_property_readonly(
           "explored_count", [](Idle self) { return self->explored_count(); },

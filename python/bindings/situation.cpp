@@ -97,8 +97,12 @@ void bind_situation(py::module_& m) {
           "situation", &SituationGrid::situation, py::arg("x"), py::arg("y"), py::arg("heading"),
           "The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers "
           "give an int; arrays broadcast and give an int64 array. Raises InvalidValue.")
-      .def("situation", py::vectorize(&SituationGrid::situation), py::arg("x"), py::arg("y"),
-           py::arg("heading"))
+      .def("situation",
+           py::vectorize([](const SituationGrid* self, double x, double y, double heading) {
+             take_a_breath();
+             return self->situation(x, y, heading);
+           }),
+           py::arg("x"), py::arg("y"), py::arg("heading"))
       .def(
           "centre",
           [](const SituationGrid& self, Whole<SituationTag> situation) {

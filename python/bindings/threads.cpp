@@ -128,6 +128,15 @@ void hear_signals() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+void take_a_breath() {
+  constexpr int kBetweenBreaths = 1 << 15;
+  thread_local int values = 0;
+  if (++values < kBetweenBreaths) return;
+  values = 0;
+  { const NoGil others_run; }
+  hear_signals();
+}
+
 bool Watch::operator()() {
   const auto now = Clock::now();
   if (now - looked_ < kBetweenLooks && !is_late()) return false;

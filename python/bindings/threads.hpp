@@ -53,6 +53,10 @@ class Gil {
 /// interpreter. With the GIL held.
 void hear_signals();
 
+/// Where Python's arguments are gone through with the GIL held, called for each value: every now
+/// and then other threads have their turn, and signals are heard, whose exception is thrown.
+void take_a_breath();
+
 /// What a long call asks every now and then, without the GIL, and ends where it is true. Every
 /// 20 ms it looks for signals, and calls `also` with the GIL held, where true ends the call too.
 /// What one of them raises is kept for rethrow().

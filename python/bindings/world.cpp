@@ -94,6 +94,7 @@ void bind_world(py::module_& m) {
       .def(py::init([](double width, double height, const Pose& start, const Point& target,
                        std::vector<Obstacle> obstacles, std::string name, std::string description,
                        const Point& origin) {
+             const NoGil no_gil;
              return World(WorldDef{std::move(name), std::move(description), width, height, origin,
                                    start, target, std::move(obstacles)});
            }),
@@ -158,6 +159,7 @@ void bind_world(py::module_& m) {
           [](const World& self, const py::array_t<double>& x, const py::array_t<double>& y,
              bool walls_count) {
             return py::vectorize([&self, walls_count](double px, double py_) {
+              take_a_breath();
               return clearance(self, px, py_, walls_count);
             })(x, y);
           },

@@ -411,3 +411,41 @@ def test_the_shortest_path_hears_ctrl_c_and_lets_others_run():
     timer.join()
     assert took < 1.0  # 0.35 s on a machine that does nothing else
     assert len(progress) > 30
+
+
+# --- other long calls ----------------------------------------------------------------------------
+
+MANY = np.linspace(0.5, 4.5, 10_000_000)
+LONG = {
+    "clearance": lambda: World.load("paper").clearance(MANY, MANY),
+    "evaluation": lambda: devlearn.StateEvaluation()(MANY, MANY),
+    "situation": lambda: devlearn.SituationGrid().situation(MANY, MANY, MANY),
+}
+
+
+@pytest.mark.parametrize("call", LONG)
+def test_a_call_with_long_arrays_hears_signals_and_lets_others_run(call):
+    turns, heard, over = [], [], threading.Event()
+
+    def watch():
+        while not over.is_set():
+            turns.append(None)
+            time.sleep(0.001)
+
+    def during_a_call(happened):
+        before = len(happened)
+        LONG[call]()
+        return len(happened) - before
+
+    (thread,) = in_threads(watch)
+    before = signal.signal(signal.SIGALRM, lambda *_: heard.append(None))
+    signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
+    try:
+        # One more might happen before or after it.
+        assert max(during_a_call(heard) for _ in range(5)) > 2
+        assert max(during_a_call(turns) for _ in range(5)) > 2
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+        over.set()
+        thread.join()
