@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -200,15 +201,19 @@ template <typename Tag>
 struct type_caster<devlearn::python::Whole<Tag>> {
   PYBIND11_TYPE_CASTER(devlearn::python::Whole<Tag>, const_name("typing.SupportsIndex"));
   bool load(handle source, bool) {
-    // By __index__ alone: a conversion would cut fractions off.
-    const auto whole = reinterpret_steal<object>(PyNumber_Index(source.ptr()));
+    // What is whole counts, 3.0 too; a conversion would cut fractions off.
+    const bool rounded =
+        PyFloat_Check(source.ptr()) &&
+        std::nearbyint(PyFloat_AS_DOUBLE(source.ptr())) == PyFloat_AS_DOUBLE(source.ptr());
+    const auto whole = reinterpret_steal<object>(rounded ? PyNumber_Long(source.ptr())
+                                                         : PyNumber_Index(source.ptr()));
     make_caster<typename Tag::type> caster;
-    if (whole && caster.load(whole, false)) {
+    if (whole && !PyBool_Check(source.ptr()) && caster.load(whole, false)) {
       value.value = cast_op<typename Tag::type>(caster);
       return true;
     }
     PyErr_Clear();
-    if (!PyIndex_Check(source.ptr())) return false;
+    if (!PyIndex_Check(source.ptr()) && !PyFloat_Check(source.ptr())) return false;
     throw devlearn::InvalidValue(Tag::quantity, devlearn::python::shown(source, PyObject_Str),
                                  Tag::allowed);
   }

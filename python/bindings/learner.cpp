@@ -145,6 +145,9 @@ Learner from_bytes(const py::bytes& bytes) {
 // A copy of an array's values, which must have this type and so many dimensions.
 template <typename T>
 std::vector<T> array_values(const py::handle& memory, const char* name, int dimensions = 1) {
+  if (!py::hasattr(memory, name)) {
+    throw InvalidValue("memory", shown(memory), "a LearnerMemory, which has " + std::string(name));
+  }
   const py::object given = memory.attr(name);
   const auto array = py::array_t<T, py::array::c_style>::ensure(given);
   if (!py::isinstance<py::array_t<T>>(given) || !array || array.ndim() != dimensions) {

@@ -1,5 +1,6 @@
 #include "bindings.hpp"
 #include "devlearn/version.hpp"
+#include "wrong_calls.hpp"
 
 PYBIND11_MODULE(_core, m) {
   m.doc() = "The C++ core of devlearn. Use it through the package `devlearn`.";
@@ -21,4 +22,5 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_agents(m);
   devlearn::python::bind_trial(m);
   devlearn::python::bind_trial_snapshot(m);
+  devlearn::python::explain_wrong_calls(m);
 }

@@ -67,6 +67,9 @@ void copy_column(const py::object& record, const char* name, std::vector<T>& col
 }  // namespace
 
 Record record_of(const py::object& source) {
+  if (!py::isinstance(source, py::module_::import("devlearn.record").attr("Record"))) {
+    throw InvalidValue("record", shown(source), "a Record");
+  }
   Record record;
   each_column([&](const auto& column) {
     copy_column<Scalar<std::decay_t<decltype(column)>>>(source, column.name, record.*column.values);

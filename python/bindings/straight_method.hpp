@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "wrong_calls.hpp"
 
 namespace devlearn::python {
 
@@ -19,6 +20,7 @@ class StraightMethod<function> {
  public:
   static void put_before(const py::object& type, const char* name) {
     general_ = py::object(type.attr(name)).release().ptr();
+    explain_wrong_calls_of(general_);
     docstring_ = py::str(py::handle(general_).attr("__doc__"));
     definition_ = {name, reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&call)),
                    METH_FASTCALL | METH_KEYWORDS, docstring_.c_str()};

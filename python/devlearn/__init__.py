@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     )
     from ._types import Choice, Development, LearnerMemory, Pose
     from ._worlds import worlds
-    from .errors import FileError, InvalidValue
+    from .errors import FileError, InvalidValue, WrongType
     from .record import Record
 
 __all__ = [
@@ -87,6 +87,7 @@ __all__ = [
     "Trial",
     "TrialConfig",
     "World",
+    "WrongType",
     "__version__",
     "direction",
     "exponential",

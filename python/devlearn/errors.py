@@ -26,6 +26,10 @@ class InvalidValue(ValueError):  # noqa: N818 - it names the value, as C++ does
         return f"{self.quantity}: got {self.value}; expected {self.allowed}"
 
 
+class WrongType(InvalidValue, TypeError):  # noqa: N818 - likewise
+    """The same for an argument of a wrong type, or a call with arguments that there are not."""
+
+
 class FileError(InvalidValue, OSError):
     """The same for a file: it also says which file and, where there is one, which field.
 

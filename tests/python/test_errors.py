@@ -241,12 +241,14 @@ SEEDED = [
 
 @pytest.mark.parametrize("make", SEEDED)
 def test_seeds_are_all_whole_numbers_of_64_bits(make):
-    for seed in (0, 1, 2**63, 2**64 - 1, np.uint64(2**64 - 1), np.int8(5)):
+    for seed in (0, 1, 2**63, 2**64 - 1, np.uint64(2**64 - 1), np.int8(5), 3.0, np.float64(4)):
         assert make(seed) == seed
     for seed in (-1, 2**64, -(2**63), 10**100, np.int64(-1)):
         refused(lambda seed=seed: make(seed), "seed", str(seed))
-    for seed in (1.0, NAN, INF, "1", b"1", None, [1], 1j, np.float64(1)):
-        with pytest.raises(TypeError):
+    for seed in (1.5, NAN, INF, True):
+        refused(lambda seed=seed: make(seed), "seed", str(seed))
+    for seed in ("1", b"1", None, [1], 1j):
+        with pytest.raises(devlearn.WrongType, match=r"seed: got .*; expected a whole number"):
             make(seed)
 
 

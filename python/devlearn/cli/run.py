@@ -208,10 +208,10 @@ def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
             if isinstance(place[last], bool) and not isinstance(field["default"], bool):
                 raise TypeError  # to Python true is a number, too
             owner.from_dict({last: place[last]})
-        except InvalidValue:
-            pass  # it may be right with the others
         except TypeError as error:
             raise InvalidValue("--set", repr(change), field["range"]) from error
+        except InvalidValue:
+            pass  # it may be right with the others
     return config.from_dict(fields)
 
 
