@@ -202,18 +202,21 @@ struct type_caster<devlearn::python::Whole<Tag>> {
   PYBIND11_TYPE_CASTER(devlearn::python::Whole<Tag>, const_name("typing.SupportsIndex"));
   bool load(handle source, bool) {
     // What is whole counts, 3.0 too; a conversion would cut fractions off.
-    const bool rounded =
-        PyFloat_Check(source.ptr()) &&
-        std::nearbyint(PyFloat_AS_DOUBLE(source.ptr())) == PyFloat_AS_DOUBLE(source.ptr());
-    const auto whole = reinterpret_steal<object>(rounded ? PyNumber_Long(source.ptr())
-                                                         : PyNumber_Index(source.ptr()));
+    const bool real = PyIndex_Check(source.ptr()) == 0 &&
+                      PyObject_HasAttrString(source.ptr(), "is_integer") != 0;
+    double number = real ? PyFloat_AsDouble(source.ptr()) : 0.5;
+    if (PyErr_Occurred() != nullptr) number = 0.5;
+    PyErr_Clear();
+    const auto whole =
+        reinterpret_steal<object>(std::nearbyint(number) == number ? PyLong_FromDouble(number)
+                                                                   : PyNumber_Index(source.ptr()));
     make_caster<typename Tag::type> caster;
     if (whole && !PyBool_Check(source.ptr()) && caster.load(whole, false)) {
       value.value = cast_op<typename Tag::type>(caster);
       return true;
     }
     PyErr_Clear();
-    if (!PyIndex_Check(source.ptr()) && !PyFloat_Check(source.ptr())) return false;
+    if (!PyIndex_Check(source.ptr()) && !real) return false;
     throw devlearn::InvalidValue(Tag::quantity, devlearn::python::shown(source, PyObject_Str),
                                  Tag::allowed);
   }

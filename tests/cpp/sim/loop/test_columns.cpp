@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <set>
 #include <string>
 
@@ -46,18 +47,23 @@ TEST_CASE("every column has a value a step or a pose, is saved, and refuses what
       (broken.*column.values).pop_back();
       CHECK_THROWS_AS(broken.validate(), InvalidValue);
       using Range = std::decay_t<decltype(column.range)>;
-      if constexpr (!std::is_same_v<Range, devlearn::detail::Anything>) {
-        broken = record;
-        const auto refused = [&](long long value) {
-          auto& last = (broken.*column.values).back();
-          last = static_cast<std::decay_t<decltype(last)>>(value);
-          try {
-            broken.validate();
-            FAIL_CHECK("accepted");
-          } catch (const InvalidValue& error) {
-            CHECK(error.quantity() == "record." + std::string(column.name) + "[49]");
-          }
-        };
+      broken = record;
+      const auto refused = [&](auto value) {
+        auto& last = (broken.*column.values).back();
+        last = static_cast<std::decay_t<decltype(last)>>(value);
+        const std::string place = "[" + std::to_string(length - 1) + "]";
+        try {
+          broken.validate();
+          FAIL_CHECK("accepted");
+        } catch (const InvalidValue& error) {
+          CHECK(error.quantity() == "record." + std::string(column.name) + place);
+        }
+      };
+      if constexpr (std::is_same_v<Range, devlearn::detail::Interval>) {
+        refused(std::numeric_limits<double>::quiet_NaN());
+        if (column.range.low_in) refused(column.range.low - 1.0);
+        if (!column.range.high_in) refused(column.range.high);
+      } else {
         refused(column.range.low - 1);
         if (column.range.high < 256) refused(column.range.high + 1);
       }

@@ -610,7 +610,7 @@ TEST_CASE("Polygons that Box2D could not bear or nobody could mean are refused")
   refused(with_polygon({{3, 3}, {3.02, 3}, {3.01, 3.0099}}), corners);  // next to no area
   CHECK_NOTHROW(World(with_polygon({{3, 3}, {3.02, 3}, {3.01, 3.0101}})));
   CHECK_NOTHROW(World(with_polygon({{3, 3}, {3.5, 3}, {4, 3}, {4, 4}})));  // a corner on a straight
-  refused(with(Polygon{std::vector<Point>(100001)}), corners);
+  refused(with(Polygon{std::vector<Point>(100002)}), corners);
 }
 
 TEST_CASE("The sweep agrees with whole-number arithmetic on what is simple") {
@@ -636,6 +636,8 @@ TEST_CASE("The sweep agrees with whole-number arithmetic on what is simple") {
     } catch (const InvalidValue&) {
       accepted = false;
     }
+    const bool closed = grid.front().x == grid.back().x && grid.front().y == grid.back().y;
+    if (closed && size > 3) grid.pop_back();  // a ring
     const bool expected = simple_on_grid(grid);
     (expected ? simple : tangled) += 1;
     wrong += accepted != expected;
