@@ -1,8 +1,8 @@
 """The paper's figures, drawn from worlds, records and learners.
 
 Plots only read: ``plot_x(record or world, *, ax=None) -> Axes`` never runs a trial. Without ``ax``
-a new figure is made, at a journal column's width; with it nothing but these axes is touched. To
-compose several panels in the same style::
+a new figure is made, at a journal column's width; with it nothing but these axes is touched.
+``save(axes, path)`` writes the figure. To compose several panels in the same style::
 
     import matplotlib.pyplot as plt
     from devlearn import plots
@@ -39,6 +39,7 @@ from ..analysis import (
 from .counts import plot_counts
 from .distribution import plot_distribution
 from .episodes import plot_episodes
+from .panels import save
 from .path import plot_trajectory
 from .preferences import plot_preferences
 from .rounds import plot_rounds
@@ -64,5 +65,6 @@ __all__ = [
     "plot_sef_surface",
     "plot_trajectory",
     "plot_world",
+    "save",
     "preference_field",
 ]

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import IO, Any
 
 import matplotlib as mpl
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Figure
+from matplotlib.figure import SubFigure
 
+from ..errors import InvalidValue
+from ..record import written_aside
 from .style import COLUMN
 
 WIDE = 7.2  # two journal columns [inches]
@@ -41,8 +46,24 @@ def shared_legend(figure: Figure, axes: Sequence[Any]) -> None:
     figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=len(entries))
 
 
+def save(axes: Axes, path: str | os.PathLike[str]) -> None:
+    """Write the figure that these axes are in, as the end of its name says: png, svg or pdf.
+
+    To the side first, then renamed. Raises InvalidValue for any other ending, FileError.
+    """
+    name = os.fsdecode(path)
+    kind = name.rpartition(".")[2].lower()
+    if kind not in ("png", "svg", "pdf"):
+        raise InvalidValue("path", repr(name), "a name that ends in .png, .svg or .pdf")
+    figure = axes.figure
+    while isinstance(figure, SubFigure):
+        figure = figure.figure
+    with written_aside(path, "wb") as file:
+        write_picture(figure, file, kind, os.path.basename(name))
+
+
 def write_picture(figure: Figure, file: IO[bytes], kind: str, name: str) -> None:
-    """As "png" or "svg"; the same figure under the same name is the same file, whenever made."""
-    metadata = {"Date": None} if kind == "svg" else None
+    """As "png", "svg" or "pdf"; the same figure and name give the same file, whenever made."""
+    metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)
     with mpl.rc_context({"svg.hashsalt": name}):
         figure.savefig(file, format=kind, metadata=metadata)

@@ -11,7 +11,7 @@ from .._core import StateEvaluation, World
 from ..analysis.fields import sef_field, world_of
 from ..errors import InvalidValue
 from ..record import Record
-from .style import COLUMN, colorbar_beside, styled
+from .style import colorbar_beside, new_figure, styled
 from .world import arena_axes, draw_arena, draw_obstacles, draw_target
 
 if TYPE_CHECKING:
@@ -94,10 +94,7 @@ def plot_sef_surface(
     energy = sef_field(world, evaluation, walls_count, points, floor)
     place = world_of(world)
     if ax is None:
-        import matplotlib.pyplot as plt
-
-        figure = plt.figure(figsize=(COLUMN, 3.0))
-        ax = figure.add_axes((0.1, 0.09, 0.85, 0.93), projection="3d")
+        ax = new_figure(3.0).add_axes((0.1, 0.09, 0.85, 0.93), projection="3d")
     if ax.name != "3d":
         raise InvalidValue("ax", f"{ax.name} axes", 'axes with projection "3d"')
     solid = cast(Any, ax)  # Axes3D, which matplotlib does not type

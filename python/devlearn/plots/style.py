@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import ScaledTranslation
 
@@ -45,6 +47,7 @@ STYLE: Any = {  # matplotlib's own type lists every setting by name
     "figure.dpi": 200,
     "savefig.dpi": 200,
     "svg.fonttype": "none",
+    "text.usetex": False,
 }
 """The rc settings under which everything here is drawn; for ``matplotlib.rc_context``."""
 
@@ -62,14 +65,26 @@ def styled(plot: _F) -> _F:
     return cast(_F, wrapper)
 
 
+def new_figure(height: float, **how: Any) -> Figure:
+    """A figure of a column's width and this height [inches].
+
+    pyplot keeps what it makes until it is told to close it, so it makes the figure only where it
+    is interactive, as in a notebook, and shows it.
+    """
+    if mpl.is_interactive():
+        import matplotlib.pyplot as plt
+
+        return plt.figure(figsize=(COLUMN, height), **how)
+    figure = Figure(figsize=(COLUMN, height), **how)
+    FigureCanvasAgg(figure)  # draws in memory, whatever backend is set
+    return figure
+
+
 def axes_of_height(ax: Axes | None, height: float) -> Axes:
     """The axes given, else new ones of a column's width and this height [inches]."""
     if ax is not None:
         return ax
-    import matplotlib.pyplot as plt
-
-    _, ax = plt.subplots(figsize=(COLUMN, height), layout="constrained")
-    return ax
+    return new_figure(height, layout="constrained").add_subplot()
 
 
 def legend_below(ax: Axes, handles: Sequence[Any], columns: int | None = None) -> None:

@@ -9,16 +9,19 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 import numpy.typing as npt
 from matplotlib import patches
+from matplotlib.collections import PatchCollection
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
 from .._core import Circle, Rectangle, Robot, RobotDef, World
 from ..analysis.fields import config_of, world_of
 from ..record import Record
-from .style import BLUE, COLUMN, GREEN, INK, OBSTACLE, VERMILLION, legend_below, styled
+from .style import BLUE, COLUMN, GREEN, INK, OBSTACLE, VERMILLION, legend_below, new_figure, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+LOWEST, HIGHEST = 0.3, 9.0  # axes of arenas that are far from square [inches]
 
 
 def arena_axes(
@@ -27,8 +30,6 @@ def arena_axes(
     """Axes for a map of the world, in a figure as high as that needs."""
     if ax is not None:
         return ax
-    import matplotlib.pyplot as plt
-
     # Around the axes, in inches. Automatic layouts do not foresee what equal aspects leave over.
     x, y = (
         0.062 * max(len(f"{edge:.0f}") for edge in (begin, begin + size))  # numbers at ticks
@@ -38,15 +39,19 @@ def arena_axes(
     bottom += 0.22 * legend
     top += 0.2 * title
     width = COLUMN - left - right
-    height = width * world.height / world.width
+    height = min(max(width * world.height / world.width, LOWEST), HIGHEST)
     total = bottom + height + top
-    figure = plt.figure(figsize=(COLUMN, total))
+    figure = new_figure(total)
     return figure.add_axes((left / COLUMN, bottom / total, width / COLUMN, height / total))
 
 
 def draw_obstacles(ax: Axes, world: World, **how: Any) -> None:
     """The obstacles as patches, drawn as ``how`` says."""
     how = {"facecolor": OBSTACLE, "edgecolor": BLUE, "linewidth": 0.7, "zorder": 1.0, **how}
+    # Each by itself can be told apart in an SVG; thousands would take minutes.
+    many = len(world.obstacles) > 1000
+    drawn: list[patches.Patch] = []
+    arena = patches.Rectangle(world.origin, world.width, world.height, transform=ax.transData)
     for i, obstacle in enumerate(world.obstacles):
         patch: patches.Patch
         if isinstance(obstacle, Circle):
@@ -55,12 +60,15 @@ def draw_obstacles(ax: Axes, world: World, **how: Any) -> None:
             patch = patches.Polygon(_corners(obstacle), closed=True, **how)
         else:
             patch = patches.Polygon(np.array(obstacle.corners, dtype=float), closed=True, **how)
+        if many:
+            drawn.append(patch)
+            continue
         patch.set_gid(f"obstacle-{i}")
         ax.add_patch(patch)
         # What lies beyond the walls, where a world lets an obstacle reach into them, is not shown.
-        patch.set_clip_path(
-            patches.Rectangle(world.origin, world.width, world.height, transform=ax.transData)
-        )
+        patch.set_clip_path(arena)
+    if many:
+        ax.add_collection(PatchCollection(drawn, **how, clip_path=arena))
 
 
 def _corners(rectangle: Rectangle) -> npt.NDArray[np.float64]:

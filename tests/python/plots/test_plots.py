@@ -1,9 +1,13 @@
 """What the plots draw is what the record, the world or the learner says."""
 
+import gc
 import importlib
 import math
+import os
 import subprocess
 import sys
+import time
+import weakref
 
 import devlearn
 import matplotlib
@@ -96,12 +100,76 @@ def test_the_axes_passed_are_returned_and_no_figure_is_made(free, paths, trial):
         assert plt.get_fignums() == figures, name
 
 
-def test_without_axes_a_figure_of_a_columns_width_is_made(free, paths, trial):
+def test_without_axes_a_figure_of_a_columns_width_is_made_and_left_to_nobody(free, paths, trial):
     for name, plot in every_plot(free, paths, trial).items():
-        figures = len(plt.get_fignums())
         ax = plot(None)
-        assert len(plt.get_fignums()) == figures + 1, name
+        assert plt.get_fignums() == [], name
         assert ax.figure.get_figwidth() == COLUMN, name
+        figure = weakref.ref(ax.figure)
+        del ax
+        gc.collect()
+        assert figure() is None, name
+
+
+def test_where_pyplot_is_interactive_it_has_the_figure_to_show(paper):
+    with plt.rc_context({"interactive": True}):
+        ax = plots.plot_world(paper)
+    assert plt.get_fignums() == [ax.figure.number]
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        "text.usetex: True",
+        "backend: nonsense",
+        "backend: TkAgg",
+        "axes.grid: True\nfont.family: Nope",
+    ],
+)
+def test_a_users_matplotlibrc_kills_no_picture(tmp_path, settings):
+    (tmp_path / "matplotlibrc").write_text(settings)
+    code = (
+        "import devlearn; from devlearn import plots\n"
+        "plots.save(plots.plot_world(devlearn.World.load('paper')), 'world.png')"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=60,
+        env={k: v for k, v in os.environ.items() if k != "MPLBACKEND"},
+    )  # fmt: skip
+    assert ran.returncode == 0, ran.stderr
+    assert (tmp_path / "world.png").stat().st_size > 5000
+
+
+def test_long_arenas_and_many_obstacles_give_a_picture_in_seconds(tmp_path):
+    began = time.monotonic()
+    long = devlearn.World(
+        width=0.5, height=1000, start=(0.25, 1, 0), target=(0.25, 999),
+        obstacles=[devlearn.Circle((0.1, 500), 0.05)],
+    )  # fmt: skip
+    places = [(5 + 3.3 * i, 5 + 3.3 * j) for i in range(300) for j in range(300)]
+    many = devlearn.World(
+        width=1000, height=1000, start=(1, 1, 0), target=(999, 999),
+        obstacles=[devlearn.Circle(place, 1) for place in places],
+    )  # fmt: skip
+    for name, world in (("long", long), ("many", many)):
+        ax = plots.plot_world(world)
+        assert ax.figure.get_figheight() < 10
+        plots.save(ax, tmp_path / f"{name}.png")
+    assert time.monotonic() - began < 30
+
+
+def test_a_picture_is_written_as_its_name_says_and_nothing_else(tmp_path, paper):
+    ax = plots.plot_world(paper)
+    for kind, begins in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
+        plots.save(ax, tmp_path / f"world.{kind}")
+        first = (tmp_path / f"world.{kind}").read_bytes()
+        assert first.startswith(begins)
+        plots.save(ax, tmp_path / f"world.{kind}")
+        assert (tmp_path / f"world.{kind}").read_bytes() == first
+    with pytest.raises(devlearn.InvalidValue, match="ends in .png"):
+        plots.save(ax, tmp_path / "world.bmp")
+    with pytest.raises(devlearn.FileError):
+        plots.save(ax, tmp_path / "nowhere" / "world.png")
 
 
 def assert_nothing_is_cut_off(figure, name):
