@@ -127,14 +127,15 @@ py::dict dict_of(const AgentState& state) {
 
 // An observation that Python may keep: what is allowed is its own.
 struct KeptObservation : Observation {
+  KeptObservation() = default;
   explicit KeptObservation(const Observation& seen) : Observation(seen) {
     if (!seen.allowed.every()) {
-      mask = py::array_t<bool>(static_cast<py::ssize_t>(seen.allowed.size()), seen.allowed.data());
+      mask.emplace(seen.allowed.data(), seen.allowed.data() + seen.allowed.size());
     }
     allowed = {};
   }
 
-  py::object mask = py::none();
+  std::optional<std::vector<bool>> mask;
 };
 
 /// An agent written in Python.
@@ -259,8 +260,8 @@ void bind_agents(py::module_& m) {
       return py::str(format).format(*attributes(self, names));
     };
   };
-  py::class_<KeptObservation>(m, "Observation", "What an agent knows when it chooses.")
-      .def_readonly("situation", &Observation::situation, "The present situation's id.")
+  py::class_<KeptObservation> observation(m, "Observation", "What an agent knows when it chooses.");
+  observation.def_readonly("situation", &Observation::situation, "The present situation's id.")
       .def_readonly("pose", &Observation::pose, "[m, m, degrees]")
       .def_readonly("sef", &Observation::sef, "SEF here.")
       .def_readonly("goal_distance", &Observation::goal_distance, "d_g [m]")
@@ -272,8 +273,10 @@ void bind_agents(py::module_& m) {
       .def_property_readonly(
           "allowed",
           [](const KeptObservation& self) -> std::optional<py::array_t<bool>> {
-            if (self.mask.is_none()) return std::nullopt;
-            return self.mask;
+            if (!self.mask) return std::nullopt;
+            py::array_t<bool> allowed(static_cast<py::ssize_t>(self.mask->size()));
+            std::copy(self.mask->begin(), self.mask->end(), allowed.mutable_data());
+            return allowed;
           },
           "Of these, the motions that the robot can make: bools, one a motion; None for every "
           "one.")
@@ -285,8 +288,11 @@ void bind_agents(py::module_& m) {
               "motion_count {6}>",
               {"situation", "pose", "sef", "goal_distance", "clearance", "estimate",
                "motion_count"}));
-  py::class_<Outcome>(m, "Outcome", "What an agent is told about the motion it chose.")
-      .def_readonly("situation", &Outcome::situation, "The next situation's id.")
+  def_result(observation, &Observation::situation, &Observation::pose, &Observation::sef,
+             &Observation::goal_distance, &Observation::clearance, &Observation::estimate,
+             &Observation::motion_count, &KeptObservation::mask);
+  py::class_<Outcome> outcome(m, "Outcome", "What an agent is told about the motion it chose.");
+  outcome.def_readonly("situation", &Outcome::situation, "The next situation's id.")
       .def_readonly("sef", &Outcome::sef, "SEF there.")
       .def_readonly("smf", &Outcome::smf, "SMF as learned from: min(SMF, -1) for a collision.")
       .def_readonly("collided", &Outcome::collided, "Whether the body touched something.")
@@ -300,10 +306,16 @@ void bind_agents(py::module_& m) {
                 "estimate {:.4g}, cost {:.4g}, reward {:.4g}>",
                 {"situation", "sef", "smf", "collided", "arrived", "estimate", "cost", "reward"}));
 
+  def_result(outcome, &Outcome::situation, &Outcome::sef, &Outcome::smf, &Outcome::collided,
+             &Outcome::arrived, &Outcome::estimate, &Outcome::cost);
   py::class_<RandomAgent, std::shared_ptr<RandomAgent>>(
       m, "RandomAgent", "Uniformly random motions: what learning is measured against.")
       .def(py::init([](Whole<SeedTag> seed) { return std::make_shared<RandomAgent>(seed.value); }),
            py::arg("seed") = 0)
+      .def("__repr__",
+           [](const RandomAgent& self) {
+             return "<devlearn.RandomAgent: generator " + words_of(self.random()) + ">";
+           })
       .def(py::pickle(
           [](const RandomAgent& self) { return self.random().state(); },
           [](const Random::State& state) { return std::make_shared<RandomAgent>(Random(state)); }));

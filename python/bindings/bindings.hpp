@@ -6,6 +6,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/typing.h>
 
 #include <algorithm>
 #include <cctype>
@@ -131,10 +132,43 @@ inline py::tuple attributes(const py::object& self, const std::vector<std::strin
   return values;
 }
 
+/// A generator's state, for a repr.
+inline std::string words_of(const Random& random) {
+  std::string text;
+  for (const std::uint64_t word : random.state()) {
+    text += (text.empty() ? "" : " ") + std::to_string(word);
+  }
+  return text;
+}
+
 /// With a capital and a full stop.
 inline std::string sentence(std::string text) {
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text + ".";
+}
+
+using State = py::typing::Tuple<py::object, py::ellipsis>;
+
+/// Equality by value, and pickling, of a class without a constructor: by these members.
+template <typename T, typename... Members>
+void def_result(py::class_<T>& cls, Members... members) {
+  cls.def(py::pickle(
+      [=](const T& self) -> State { return py::make_tuple(self.*members...); },
+      [=](const State& state) {
+        if (state.size() != sizeof...(members)) {
+          throw InvalidValue("state", shown(state),
+                             "a tuple of " + std::to_string(sizeof...(members)) + " values");
+        }
+        T value;
+        std::size_t i = 0;
+        ((value.*members = state[i++].template cast<std::decay_t<decltype(value.*members)>>()),
+         ...);
+        return value;
+      }));
+  cls.def("__eq__", [](const py::object& self, const py::object& other) {
+    return py::type::of(self).is(py::type::of(other)) &&
+           self.attr("__getstate__")().equal(other.attr("__getstate__")());
+  });
 }
 
 /// Pickling of a class whose constructor takes the attributes of these names, in this order.
@@ -143,6 +177,18 @@ void def_pickling(py::class_<T>& cls, std::vector<std::string> names) {
   cls.def("__reduce__", [names = std::move(names)](const py::object& self) {
     return py::make_tuple(py::type::of(self), attributes(self, names));
   });
+}
+
+/// Equality and pickling of a class that is made from the attributes of these names.
+template <typename T>
+void def_value(py::class_<T>& cls, const std::vector<std::string>& names) {
+  cls.def(
+      "__eq__",
+      [names](const py::object& a, const T& b) {
+        return attributes(a, names).equal(attributes(py::cast(b), names));
+      },
+      py::is_operator());
+  def_pickling(cls, names);
 }
 
 }  // namespace devlearn::python
@@ -202,8 +248,8 @@ struct type_caster<devlearn::python::Whole<Tag>> {
   PYBIND11_TYPE_CASTER(devlearn::python::Whole<Tag>, const_name("typing.SupportsIndex"));
   bool load(handle source, bool) {
     // What is whole counts, 3.0 too; a conversion would cut fractions off.
-    const bool real = PyIndex_Check(source.ptr()) == 0 &&
-                      PyObject_HasAttrString(source.ptr(), "is_integer") != 0;
+    const bool real =
+        PyIndex_Check(source.ptr()) == 0 && PyObject_HasAttrString(source.ptr(), "is_integer") != 0;
     double number = real ? PyFloat_AsDouble(source.ptr()) : 0.5;
     if (PyErr_Occurred() != nullptr) number = 0.5;
     PyErr_Clear();

@@ -5,12 +5,13 @@
 namespace devlearn::python {
 
 void bind_explanation(py::module_& m) {
-  py::class_<Explanation>(m, "Explanation",
-                          "Why motions are chosen in a situation: all that step 3 makes of its "
-                          "memory. Of N motions,\nn are effective. Where not every motion is "
-                          "allowed, n and n_R of the probabilities count\nthose that are. str() of "
-                          "it is a table.")
-      .def_readonly("situation", &Explanation::situation, "The situation's id.")
+  py::class_<Explanation> explanation(
+      m, "Explanation",
+      "Why motions are chosen in a situation: all that step 3 makes of its "
+      "memory. Of N motions,\nn are effective. Where not every motion is "
+      "allowed, n and n_R of the probabilities count\nthose that are. str() of "
+      "it is a table.");
+  explanation.def_readonly("situation", &Explanation::situation, "The situation's id.")
       .def_readonly("memory", &Explanation::memory,
                     "What the choice goes by: lists, orientations, counts.")
       .def_readonly("allowed", &Explanation::allowed,
@@ -36,8 +37,14 @@ void bind_explanation(py::module_& m) {
             .format(self.attr("situation"), self.attr("probability"));
       });
 
-  py::class_<ChoiceTrace>(m, "ChoiceTrace",
-                          "Why one choice came out as it did. str() of it is a table.")
+  def_result(explanation, &Explanation::situation, &Explanation::memory, &Explanation::allowed,
+             &Explanation::explore, &Explanation::exploit, &Explanation::exhausted,
+             &Explanation::probability, &Explanation::curiosity, &Explanation::op_plain,
+             &Explanation::op_curious, &Explanation::winner);
+
+  py::class_<ChoiceTrace> trace(m, "ChoiceTrace",
+                                "Why one choice came out as it did. str() of it is a table.");
+  trace
       .def_readonly("explanation", &ChoiceTrace::explanation,
                     "Of the situation as the choice found it.")
       .def_readonly("choice", &ChoiceTrace::choice, "The Choice.")
@@ -49,6 +56,8 @@ void bind_explanation(py::module_& m) {
       .def("__repr__", [](const py::object& self) {
         return py::str("<devlearn.ChoiceTrace: {!r}>").format(self.attr("choice"));
       });
+  def_result(trace, &ChoiceTrace::explanation, &ChoiceTrace::choice, &ChoiceTrace::curious,
+             &ChoiceTrace::op);
 }
 
 }  // namespace devlearn::python

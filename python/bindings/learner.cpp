@@ -221,9 +221,8 @@ void bind_results(py::module_& m) {
       .value("ABANDONMENT", Event::kAbandonment, "an exploited motion met SMF < 0 and left")
       .finalize();
 
-  py::class_<MemoryUse>(m, "MemoryUse", "Memory in bytes.")
-      .def_readonly("used", &MemoryUse::used,
-                    "By the situations experienced, their index included.")
+  py::class_<MemoryUse> use(m, "MemoryUse", "Memory in bytes.");
+  use.def_readonly("used", &MemoryUse::used, "By the situations experienced, their index included.")
       .def_readonly("spare", &MemoryUse::spare,
                     "Held for more of them: reserved, or left over by growth.")
       .def("__repr__", [](const py::object& self) {
@@ -231,9 +230,13 @@ void bind_results(py::module_& m) {
             .format(self.attr("used"), self.attr("spare"));
       });
 
-  py::class_<SituationMemory>(m, "SituationMemory",
-                              "What one situation holds, as a copy: three disjoint lists of motion "
-                              "indices, together always M (Eq. 3-4).")
+  def_result(use, &MemoryUse::used, &MemoryUse::spare);
+
+  py::class_<SituationMemory> memory(
+      m, "SituationMemory",
+      "What one situation holds, as a copy: three disjoint lists of motion "
+      "indices, together always M (Eq. 3-4).");
+  memory
       .def_readonly("effective", &SituationMemory::effective,
                     "M_i: motions found effective, in the order they entered.")
       .def_readonly("ineffective", &SituationMemory::ineffective,
@@ -250,6 +253,9 @@ void bind_results(py::module_& m) {
             .format(self.attr("effective"), self.attr("ineffective"), self.attr("unexplored"),
                     self.attr("orientation"), self.attr("times_learned"));
       });
+  def_result(memory, &SituationMemory::effective, &SituationMemory::ineffective,
+             &SituationMemory::unexplored, &SituationMemory::orientation,
+             &SituationMemory::times_learned);
 }
 
 }  // namespace

@@ -51,6 +51,12 @@ void bind_random(py::module_& m) {
           "What it goes on from, as an array of four uint64.")
       .def(py::pickle([](const Random& self) { return self.state(); },
                       [](const Random::State& state) { return Random(state); }))
+      .def("__repr__",
+           [](const Random& self) { return "<devlearn.Random: state " + words_of(self) + ">"; })
+      .def(
+          "__eq__",
+          [](const Random& self, const Random& other) { return self.state() == other.state(); },
+          py::is_operator())
       .def("next", &Random::next, "64 random bits as an int.")
       .def("uniform", &Random::uniform, "A float uniform on [0, 1).")
       .def(

@@ -102,6 +102,8 @@ void bind_record(py::module_& m) {
             .format(self.attr("round"), self.attr("situation"), self.attr("motion"),
                     self.attr("kind").attr("name"), self.attr("smf"));
       });
+  std::apply([&](const auto&... column) { def_result(step, column.of..., &Step::pose); },
+             Record::step_columns());
 }
 
 }  // namespace devlearn::python

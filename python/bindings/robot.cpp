@@ -23,10 +23,11 @@ void bind_robot(py::module_& m) {
       .def("sonar_angles", &RobotDef::sonar_angles,
            "Where each sonar looks, relative to the heading, from right to left [degrees].");
 
-  py::class_<Robot>(
+  py::class_<Robot> robot(
       m, "Robot",
       "The robot's body in a world: how it moves and what its sonars hear. A step is a "
-      "pure function of (world, pose, motion).")
+      "pure function of (world, pose, motion).");
+  robot
       .def(py::init([](const World& world, const std::optional<RobotDef>& def) {
              return Robot(world, def.value_or(RobotDef{}));
            }),
@@ -83,7 +84,17 @@ void bind_robot(py::module_& m) {
           },
           "(left, right) wheel speeds of the drive, held for one sample time [m/s].")
       .def_property_readonly("definition", &Robot::def, py::return_value_policy::copy,
-                             "Its RobotDef.");
+                             "Its RobotDef.")
+      .def_property_readonly("world", &Robot::world, py::return_value_policy::copy, "Its World.")
+      .def(
+          "__repr__",
+          [](const py::object& self) {
+            return py::str("Robot({!r}, {!r})").format(self.attr("world"), self.attr("definition"));
+          })
+      .def(
+          "__deepcopy__", [](const py::object& self, const py::dict&) { return self; },
+          py::arg("memo"));
+  def_pickling(robot, {"world", "definition"});
 
   py::class_<ShortestPath> path(
       m, "ShortestPath",

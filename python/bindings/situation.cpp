@@ -78,15 +78,15 @@ void bind_situation(py::module_& m) {
         return Pose{0.0, 0.0, heading}.yaw();
       },
       py::arg("heading"), "Pose.yaw of a heading.");
-  py::class_<SituationGrid>(
+  py::class_<SituationGrid> grid(
       m, "SituationGrid",
       "Step 1: which sensory situation a pose is, on an even grid of cells and headings.\n\n"
       "Cells are half-open; the arena's far borders belong to the last cells. Heading bin k is\n"
       "centred on k * 360 / headings degrees. id = (row * columns + column) * headings + bin.\n\n"
       "Parameters: width, height in (0, 10000] m; columns, rows in 1 ... 100000; headings in\n"
       "1 ... 3600; origin (x, y), the arena's corner of least x and y, each within 1e7 m of 0.\n"
-      "Raises InvalidValue.")
-      .def(py::init([](double width, double height, Whole<ColumnsTag> columns, Whole<RowsTag> rows,
+      "Raises InvalidValue.");
+  grid.def(py::init([](double width, double height, Whole<ColumnsTag> columns, Whole<RowsTag> rows,
                        Whole<HeadingsTag> headings, Point origin) {
              return SituationGrid(width, height, columns.value, rows.value, headings.value, origin);
            }),
@@ -125,6 +125,7 @@ void bind_situation(py::module_& m) {
                ", headings=" + std::to_string(self.headings()) + ", origin=(" +
                to_text(self.origin().x) + ", " + to_text(self.origin().y) + "))";
       });
+  def_value(grid, {"width", "height", "columns", "rows", "headings", "origin"});
 }
 
 }  // namespace devlearn::python

@@ -162,6 +162,11 @@ void bind_trial(py::module_& m) {
           }),
           py::arg("world"), py::arg("config") = py::none(), py::arg("seed") = 0,
           py::arg("agent") = py::none());
+  cls.def("__repr__", [](const py::object& self) {
+    return py::str("<devlearn.Trial: world {!r}, seed {}, round {}, at ({:.4g}, {:.4g}, {:.4g})>")
+        .format(self.attr("world").attr("name"), self.attr("seed"), self.attr("round"),
+                *self.attr("pose"));
+  });
   def_phase<Whole<StepsTag>>(
       cls, "run", &Trial::run, false,
       "`steps` steps from where the robot is, in the present round.\n\n"

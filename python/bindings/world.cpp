@@ -14,24 +14,14 @@ double clearance(const World& world, double x, double y, bool walls_count) {
   return world.clearance({x, y}, walls_count);
 }
 
-/// Equality and pickling of a class that is made from the attributes of these names.
-template <typename T>
-void def_value(py::class_<T>& cls, const std::vector<std::string>& names) {
-  cls.def(
-      "__eq__",
-      [names](const py::object& a, const T& b) {
-        return attributes(a, names).equal(attributes(py::cast(b), names));
-      },
-      py::is_operator());
-  def_pickling(cls, names);
-}
-
 void bind_obstacles(py::module_& m) {
   py::class_<Circle> circle(m, "Circle",
                             "A round obstacle: center (x, y) [m], radius in [0.01, 1000] m.");
   circle
       .def(py::init([](Point center, double radius) {
-             return Circle{center, radius};
+             const Circle made{center, radius};
+             made.validate("Circle");
+             return made;
            }),
            py::arg("center"), py::arg("radius"))
       .def_readonly("center", &Circle::center, "(x, y) [m]")
@@ -46,7 +36,9 @@ void bind_obstacles(py::module_& m) {
       "in [0.01, 1000] m, turned by `angle` degrees counter-clockwise.");
   rectangle
       .def(py::init([](Point center, Point size, double angle) {
-             return Rectangle{center, size.x, size.y, angle};
+             const Rectangle made{center, size.x, size.y, angle};
+             made.validate("Rectangle");
+             return made;
            }),
            py::arg("center"), py::arg("size"), py::arg("angle") = 0.0)
       .def_readonly("center", &Rectangle::center, "(x, y) [m]")
@@ -67,7 +59,11 @@ void bind_obstacles(py::module_& m) {
                               "corners (x, y) [m] in either direction, neighbours at least 0.01 m "
                               "apart.");
   polygon
-      .def(py::init([](std::vector<Point> corners) { return Polygon{std::move(corners)}; }),
+      .def(py::init([](std::vector<Point> corners) {
+             Polygon made{std::move(corners)};
+             made.validate("Polygon");
+             return made;
+           }),
            py::arg("corners"))
       .def_readonly("corners", &Polygon::corners, "(x, y) of each corner [m]")
       .def("__repr__", [](const py::object& self) {

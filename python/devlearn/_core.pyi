@@ -60,13 +60,17 @@ class Random:
 
     The paper's learner draws from the stream "agent" of its seed.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
     @staticmethod
     def from_state(state: numpy.ndarray) -> Random:
         """
         A generator that goes on from a state. Raises InvalidValue for what is none.
         """
+    def __eq__(self, other: object, /) -> bool: ...
     def __getstate__(self) -> typing.Annotated[list[int], "FixedSize(4)"]: ...
     def __init__(self, seed: typing.SupportsIndex, stream: str) -> None: ...
+    def __repr__(self) -> str: ...
     def __setstate__(
         self,
         arg0: typing.Annotated[
@@ -102,6 +106,9 @@ class SituationGrid:
     1 ... 3600; origin (x, y), the arena's corner of least x and y, each within 1e7 m of 0.
     Raises InvalidValue.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
     def __init__(
         self,
         width: typing.SupportsFloat | typing.SupportsIndex = 5.0,
@@ -111,6 +118,7 @@ class SituationGrid:
         headings: typing.SupportsIndex = 12,
         origin: collections.abc.Sequence[float] = (0.0, 0.0),
     ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
     def centre(self, situation: typing.SupportsIndex) -> devlearn._types.Pose:
         """
@@ -390,7 +398,12 @@ class MemoryUse:
     """
     Memory in bytes.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     @property
     def spare(self) -> int:
         """
@@ -406,7 +419,12 @@ class SituationMemory:
     """
     What one situation holds, as a copy: three disjoint lists of motion indices, together always M (Eq. 3-4).
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     @property
     def effective(self) -> list[int]:
         """
@@ -439,7 +457,12 @@ class Explanation:
     n are effective. Where not every motion is allowed, n and n_R of the probabilities count
     those that are. str() of it is a table.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     def __str__(self) -> str: ...
     @property
     def allowed(self) -> list[bool]:
@@ -501,7 +524,12 @@ class ChoiceTrace:
     """
     Why one choice came out as it did. str() of it is a table.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     def __str__(self) -> str: ...
     @property
     def choice(self) -> devlearn._types.Choice:
@@ -1008,7 +1036,10 @@ class Robot:
     """
     The robot's body in a world: how it moves and what its sonars hear. A step is a pure function of (world, pose, motion).
     """
+    def __deepcopy__(self, memo: dict[str, typing.Any]) -> typing.Any: ...
     def __init__(self, world: World, robot: RobotDef | None = None) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
     def allowed(self, pose: collections.abc.Sequence[float]) -> numpy.typing.NDArray[numpy.bool]:
         """
         Which motions the robot can make from a pose, as its safety layer sees it: those that keep its body further than safety_margin from obstacles and walls all along the way of Eq. 1. Where none does, or there is no such layer, every one. A bool array. Raises InvalidValue for a pose that is not finite.
@@ -1036,6 +1067,11 @@ class Robot:
     def drive_speeds(self) -> tuple[float, float]:
         """
         (left, right) wheel speeds of the drive, held for one sample time [m/s].
+        """
+    @property
+    def world(self) -> World:
+        """
+        Its World.
         """
 
 class ShortestPath:
@@ -1068,7 +1104,12 @@ class Step:
     """
     Everything about one step of a trial.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     @property
     def arrived(self) -> bool:
         """
@@ -1154,7 +1195,12 @@ class Observation:
     """
     What an agent knows when it chooses.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     @property
     def allowed(self) -> numpy.typing.NDArray[numpy.bool] | None:
         """
@@ -1200,7 +1246,12 @@ class Outcome:
     """
     What an agent is told about the motion it chose.
     """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     @property
     def arrived(self) -> bool:
         """
@@ -1248,6 +1299,7 @@ class RandomAgent:
     """
     def __getstate__(self) -> typing.Annotated[list[int], "FixedSize(4)"]: ...
     def __init__(self, seed: typing.SupportsIndex = 0) -> None: ...
+    def __repr__(self) -> str: ...
     def __setstate__(
         self,
         arg0: typing.Annotated[
@@ -1403,6 +1455,7 @@ class Trial:
         seed: typing.SupportsIndex = 0,
         agent: typing.Any = None,
     ) -> None: ...
+    def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
     def begin_round(self) -> None:
         """

@@ -325,7 +325,7 @@ def test_choosing_and_learning_leaves_nothing_behind():
                     with contextlib.suppress(TypeError, devlearn.InvalidValue):
                         bad()
 
-    steps(1000)  # whatever is made once is made
+    steps(10_000)  # whatever is made once is made
     gc.collect()
     before = sys.getallocatedblocks()
     steps(20_000)

@@ -110,6 +110,17 @@ void require_simple(const std::string& quantity, const std::vector<Point>& corne
   }
 }
 
+void require_point(const std::string& quantity, Point p) {
+  require_finite(indexed(quantity, 0), p.x);
+  require_finite(indexed(quantity, 1), p.y);
+}
+
+void require_corners(const std::string& quantity, std::size_t count) {
+  if (count >= 3 && count <= kMostCorners) return;
+  throw InvalidValue(quantity, std::to_string(count) + " corners",
+                     "3 to " + std::to_string(kMostCorners) + " corners");
+}
+
 // Adds up what the obstacles hold while checking them one by one.
 class ObstacleCheck {
  public:
@@ -117,21 +128,16 @@ class ObstacleCheck {
 
   void operator()(const Circle& circle) const {
     require_near(name_ + ".center", circle.center, def_);
-    require_in(name_ + ".radius", circle.radius, kLeastSize, kGreatestSize, "m");
+    circle.validate(name_);
   }
   void operator()(const Rectangle& rectangle) const {
     require_near(name_ + ".center", rectangle.center, def_);
-    require_in(name_ + ".size[0]", rectangle.width, kLeastSize, kGreatestSize, "m");
-    require_in(name_ + ".size[1]", rectangle.height, kLeastSize, kGreatestSize, "m");
-    require_in(name_ + ".angle", rectangle.angle, -360.0, 360.0, "degrees");
+    rectangle.validate(name_);
   }
   void operator()(const Polygon& polygon) {
     const std::string quantity = name_ + ".corners";
     const std::size_t count = polygon.corners.size();
-    if (count < 3 || count > kMostCorners) {
-      throw InvalidValue(quantity, std::to_string(count) + " corners",
-                         "3 to " + std::to_string(kMostCorners) + " corners");
-    }
+    require_corners(quantity, count);
     corners_in_all_ += count;
     if (corners_in_all_ > kMostCornersInAll) {
       throw InvalidValue("obstacles", std::to_string(corners_in_all_) + " or more corners",
@@ -176,6 +182,25 @@ void require_start(const World& world) {
 }
 
 }  // namespace
+
+void Circle::validate(const std::string& name) const {
+  require_point(name + ".center", center);
+  require_in(name + ".radius", radius, kLeastSize, kGreatestSize, "m");
+}
+
+void Rectangle::validate(const std::string& name) const {
+  require_point(name + ".center", center);
+  require_in(name + ".size[0]", width, kLeastSize, kGreatestSize, "m");
+  require_in(name + ".size[1]", height, kLeastSize, kGreatestSize, "m");
+  require_in(name + ".angle", angle, -360.0, 360.0, "degrees");
+}
+
+void Polygon::validate(const std::string& name) const {
+  require_corners(name + ".corners", corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    require_point(indexed(name + ".corners", i), corners[i]);
+  }
+}
 
 World::World(WorldDef def) {
   open_rings(def.obstacles);

@@ -103,6 +103,10 @@ def _main(options: argparse.Namespace) -> int:
         config = _core.load_config(options.config)
     config = _changed(config, options.set)
     _core.Trial(world, config, options.seed)  # refuses what cannot run
+    if not _core.may_reach_target(_core.Robot(world, config.robot), goal_radius=config.goal_radius):
+        warn(
+            "devlearn: nothing leads this robot from the start to the target; it never will arrive"
+        )
     with owned_folder(options.output) as folder:
         made = _made(folder, world, config, planned, options)
     for line in _told(made, world.name or options.world, planned):

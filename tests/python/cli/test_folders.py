@@ -10,7 +10,7 @@ import time
 
 import pytest
 from conftest import differences
-from devlearn import FileError, Record, Trial, World, cli
+from devlearn import FileError, Record, Rectangle, Trial, World, cli
 from devlearn._files import LOCK, owned_folder
 from devlearn.paper import schedule, survival
 
@@ -298,3 +298,13 @@ def test_two_reproductions_in_one_folder_are_one_at_a_time(tmp_path, capsys):
         said = refusal(capsys, "reproduce", "--seeds", 1, "--output", tmp_path)
     assert f"in use by process {os.getpid()} on " in said
     assert not (tmp_path / "runs.jsonl").exists()
+
+
+def test_a_target_that_nothing_leads_to_is_said_before_the_run(tmp_path, capsys):
+    walled = World(obstacles=[Rectangle((2.5, 2.5), (0.1, 5.0))], start=(1, 1, 0), target=(4, 4))
+    walled.save(tmp_path / "walled.json")
+    line = ["run", str(tmp_path / "walled.json"), *SHORT[2:], "--output", str(tmp_path / "out")]
+    assert cli.main(line) == 0
+    assert "nothing leads this robot from the start to the target" in capsys.readouterr().err
+    assert cli.main([*SHORT, "--output", str(tmp_path / "empty")]) == 0
+    assert capsys.readouterr().err == ""

@@ -14,6 +14,9 @@ namespace devlearn {
 struct Circle {
   Point center;         ///< [m]
   double radius = 0.0;  ///< in [0.01, 1000] m
+
+  /// Throws InvalidValue, naming `name`.radius and so on, unless its numbers lie in their ranges.
+  void validate(const std::string& name) const;
 };
 
 /// A rectangle at any angle.
@@ -22,11 +25,17 @@ struct Rectangle {
   double width = 0.0;   ///< along its own x axis, in [0.01, 1000] m
   double height = 0.0;  ///< along its own y axis, in [0.01, 1000] m
   double angle = 0.0;   ///< of its own x axis, counter-clockwise, in [-360, 360] degrees
+
+  /// Likewise.
+  void validate(const std::string& name) const;
 };
 
 /// Any simple polygon, convex or not, its corners in either direction of turning.
 struct Polygon {
   std::vector<Point> corners;  ///< at least 3, no two neighbours closer than 0.01 m
+
+  /// Likewise of their number and their numbers; a World sees to what they make together.
+  void validate(const std::string& name) const;
 };
 
 using Obstacle = std::variant<Circle, Rectangle, Polygon>;
