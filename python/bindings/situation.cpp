@@ -84,19 +84,28 @@ void bind_situation(py::module_& m) {
       "Cells are half-open; the arena's far borders belong to the last cells. Heading bin k is\n"
       "centred on k * 360 / headings degrees. id = (row * columns + column) * headings + bin.\n\n"
       "Parameters: width, height in (0, 10000] m; columns, rows in 1 ... 100000; headings in\n"
-      "1 ... 3600; origin (x, y), the arena's corner of least x and y, each within 1e7 m of 0.\n"
-      "Raises InvalidValue.");
+      "1 ... 3600; origin (x, y), the arena's corner of least x and y, each within 1e7 m of 0;\n"
+      "outside: of poses beyond the arena, 'refuse', or 'clamp' to the nearest cell, as a real\n"
+      "robot's estimate may need. Raises InvalidValue.");
   grid.def(py::init([](double width, double height, Whole<ColumnsTag> columns, Whole<RowsTag> rows,
-                       Whole<HeadingsTag> headings, Point origin) {
-             return SituationGrid(width, height, columns.value, rows.value, headings.value, origin);
+                       Whole<HeadingsTag> headings, Point origin, const std::string& outside) {
+             if (outside != "refuse" && outside != "clamp") {
+               throw InvalidValue("SituationGrid.outside", "'" + outside + "'",
+                                  "'refuse' or 'clamp'");
+             }
+             return SituationGrid(width, height, columns.value, rows.value, headings.value, origin,
+                                  outside == "clamp" ? Outside::kClamp : Outside::kRefuse);
            }),
            py::arg("width") = 5.0, py::arg("height") = 5.0, py::arg("columns") = 20,
            py::arg("rows") = 20, py::arg("headings") = 12,
-           py::arg("origin") = py::make_tuple(0.0, 0.0))
+           py::arg("origin") = py::make_tuple(0.0, 0.0), py::arg("outside") = "refuse")
       .def(
-          "situation", &SituationGrid::situation, py::arg("x"), py::arg("y"), py::arg("heading"),
+          "situation",
+          py::overload_cast<double, double, double>(&SituationGrid::situation, py::const_),
+          py::arg("x"), py::arg("y"), py::arg("heading"),
           "The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers "
-          "give an int; arrays broadcast and give an int64 array. Raises InvalidValue.")
+          "give an int; arrays broadcast and give an int64 array. Of a robot that has radians: "
+          "situation(*Pose.from_radians(x, y, yaw)). Raises InvalidValue.")
       .def("situation",
            py::vectorize([](const SituationGrid* self, double x, double y, double heading) {
              take_a_breath();
@@ -117,15 +126,22 @@ void bind_situation(py::module_& m) {
       .def_property_readonly("rows", &SituationGrid::rows, "Cells along y.")
       .def_property_readonly("headings", &SituationGrid::headings, "Heading bins.")
       .def_property_readonly("origin", &SituationGrid::origin, "(x, y) [m]")
+      .def_property_readonly(
+          "outside",
+          [](const SituationGrid& self) {
+            return self.outside() == Outside::kClamp ? "clamp" : "refuse";
+          },
+          "Of poses beyond the arena: 'refuse' or 'clamp'.")
       .def("__repr__", [](const SituationGrid& self) {
         return "SituationGrid(width=" + to_text(self.width()) +
                ", height=" + to_text(self.height()) +
                ", columns=" + std::to_string(self.columns()) +
                ", rows=" + std::to_string(self.rows()) +
                ", headings=" + std::to_string(self.headings()) + ", origin=(" +
-               to_text(self.origin().x) + ", " + to_text(self.origin().y) + "))";
+               to_text(self.origin().x) + ", " + to_text(self.origin().y) + ")" +
+               (self.outside() == Outside::kClamp ? ", outside='clamp')" : ")");
       });
-  def_value(grid, {"width", "height", "columns", "rows", "headings", "origin"});
+  def_value(grid, {"width", "height", "columns", "rows", "headings", "origin", "outside"});
 }
 
 }  // namespace devlearn::python

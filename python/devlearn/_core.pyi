@@ -103,8 +103,9 @@ class SituationGrid:
     centred on k * 360 / headings degrees. id = (row * columns + column) * headings + bin.
 
     Parameters: width, height in (0, 10000] m; columns, rows in 1 ... 100000; headings in
-    1 ... 3600; origin (x, y), the arena's corner of least x and y, each within 1e7 m of 0.
-    Raises InvalidValue.
+    1 ... 3600; origin (x, y), the arena's corner of least x and y, each within 1e7 m of 0;
+    outside: of poses beyond the arena, 'refuse', or 'clamp' to the nearest cell, as a real
+    robot's estimate may need. Raises InvalidValue.
     """
 
     __hash__: typing.ClassVar[None] = None  # type: ignore
@@ -117,6 +118,7 @@ class SituationGrid:
         rows: typing.SupportsIndex = 20,
         headings: typing.SupportsIndex = 12,
         origin: collections.abc.Sequence[float] = (0.0, 0.0),
+        outside: str = "refuse",
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -132,7 +134,7 @@ class SituationGrid:
         heading: typing.SupportsFloat | typing.SupportsIndex,
     ) -> int:
         """
-        The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers give an int; arrays broadcast and give an int64 array. Raises InvalidValue.
+        The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers give an int; arrays broadcast and give an int64 array. Of a robot that has radians: situation(*Pose.from_radians(x, y, yaw)). Raises InvalidValue.
         """
     @typing.overload
     def situation(
@@ -165,6 +167,11 @@ class SituationGrid:
     def origin(self) -> tuple[float, float]:
         """
         (x, y) [m]
+        """
+    @property
+    def outside(self) -> str:
+        """
+        Of poses beyond the arena: 'refuse' or 'clamp'.
         """
     @property
     def rows(self) -> int:

@@ -48,6 +48,41 @@ def test_the_programs_of_the_guide_compile_against_core(tmp_path, program):
     subprocess.run(command, check=True)
 
 
+def test_every_header_of_core_is_read_by_a_program_without_exceptions_and_types(tmp_path):
+    headers = sorted(ROOT.glob("cpp/core/include/devlearn/**/*.hpp"))
+    source = tmp_path / "program.cpp"
+    source.write_text(
+        "".join(f"#include <{h.relative_to(ROOT / 'cpp/core/include')}>\n" for h in headers)
+        + "int main() {\n"
+        "  devlearn::Learner learner;\n"
+        "  learner.choose(3);\n"
+        "  devlearn::LearnerConfig().validate();\n"
+        "  return devlearn::to_pose(Eigen::Isometry2d::Identity()).heading > 0;\n"
+        "}\n"
+    )
+    eigen = subprocess.run(
+        ["pkg-config", "--cflags", "eigen3"], capture_output=True, text=True, check=True
+    )
+    options = ["-std=c++17", "-fno-exceptions", "-fno-rtti", "-Wall", "-Wextra", "-Werror"]
+    include = ["-I", ROOT / "cpp/core/include", *eigen.stdout.replace("-I", "-isystem").split()]
+    subprocess.run(["g++", *options, "-fsyntax-only", *include, source], check=True)
+
+
+@pytest.mark.parametrize("header", ["learner", "situation", "snapshot", "eigen", "error"])
+def test_an_older_standard_is_told_what_is_missing(tmp_path, header):
+    source = tmp_path / "program.cpp"
+    source.write_text(f"#include <devlearn/{header}.hpp>\nint main() {{}}\n")
+    eigen = subprocess.run(
+        ["pkg-config", "--cflags", "eigen3"], capture_output=True, text=True, check=True
+    )
+    include = ["-I", ROOT / "cpp/core/include", *eigen.stdout.split()]
+    compiled = subprocess.run(
+        ["g++", "-std=c++14", "-fsyntax-only", *include, source], capture_output=True, text=True
+    )
+    first = next(line for line in compiled.stderr.splitlines() if " error: " in line)
+    assert "devlearn needs C++17 or later: compile with -std=c++17" in first
+
+
 def test_every_header_is_in_the_reference():
     reference = (ROOT / "docs/reference/cpp.rst").read_text(encoding="utf-8")
     assert sorted(re.findall(r"^\.\. doxygenfile:: (\S+)", reference, re.MULTILINE)) == HEADERS

@@ -125,3 +125,28 @@ def test_a_heading_in_radians_is_one_in_degrees_and_back(yaw):
     assert abs(np.exp(1j * pose.yaw) - np.exp(1j * yaw)) <= 1e-9
     for given_yaw in (np.inf, np.nan):
         refused(lambda given_yaw=given_yaw: Pose.from_radians(0, 0, given_yaw), "yaw")
+
+
+# --- what lies outside ----------------------------------------------------------------------------
+
+
+def test_what_lies_outside_is_refused_or_in_the_nearest_cell():
+    refusing = SituationGrid(origin=(-1, -1))
+    clamping = SituationGrid(origin=(-1, -1), outside="clamp")
+    assert (refusing.outside, clamping.outside) == ("refuse", "clamp")
+    assert repr(clamping).endswith("origin=(-1, -1), outside='clamp')")
+    assert refusing != clamping
+    with pytest.raises(devlearn.InvalidValue, match="x: got 9"):
+        refusing.situation(9, 0, 0)
+    assert clamping.situation(9, 0, 0) == clamping.situation(4, 0, 0)
+    xs = np.array([-5.0, 0.0, 99.0])
+    assert (clamping.situation(xs, 0, 90) == refusing.situation(np.clip(xs, -1, 4), 0, 90)).all()
+    with pytest.raises(devlearn.InvalidValue, match="x: got nan"):
+        clamping.situation(float("nan"), 0, 0)
+    with pytest.raises(devlearn.InvalidValue, match="SituationGrid.outside: got 'wrap'"):
+        SituationGrid(outside="wrap")
+
+
+def test_a_robot_that_has_radians_says_so_by_name():
+    grid = SituationGrid()
+    assert grid.situation(*devlearn.Pose.from_radians(1, 2, np.pi / 2)) == grid.situation(1, 2, 90)

@@ -27,6 +27,10 @@ FileError::FileError(std::string file, std::string field, std::string value, std
                    allowed),
       file_(std::move(file)) {}
 
+void refuse(std::string quantity, std::string value, std::string allowed) {
+  throw InvalidValue(std::move(quantity), std::move(value), std::move(allowed));
+}
+
 std::string to_text(double value) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;

@@ -6,6 +6,16 @@
 
 namespace devlearn {
 
+void require_each(std::size_t count, const void* require, RequireOne one) {
+  std::size_t i = 0;
+  try {
+    for (; i < count; ++i) one(require, i);
+  } catch (const InvalidValue& error) {
+    throw InvalidValue(error.quantity() + "[" + std::to_string(i) + "]", error.value(),
+                       error.allowed());
+  }
+}
+
 void refuse_outside(std::string_view quantity, double value, char left, double low, double high,
                     char right, std::string_view unit) {
   const detail::Interval allowed{low, high, left == '[', right == ']', unit};

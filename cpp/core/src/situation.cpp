@@ -24,13 +24,14 @@ double Pose::yaw() const noexcept {
 }
 
 SituationGrid::SituationGrid(double width, double height, int columns, int rows, int headings,
-                             Point origin)
+                             Point origin, Outside outside)
     : width_(width),
       height_(height),
       columns_(columns),
       rows_(rows),
       headings_(headings),
-      origin_(origin) {
+      origin_(origin),
+      outside_(outside) {
   require_above("SituationGrid.width", width, 0.0, 10000.0, "m");
   require_above("SituationGrid.height", height, 0.0, 10000.0, "m");
   require_count("SituationGrid.columns", columns, 1, 100000);
@@ -61,14 +62,21 @@ void SituationGrid::situations(const double* poses, std::size_t stride, std::siz
 }
 
 void SituationGrid::require_inside(double x, double y, double heading) const {
-  require_in("x", x, origin_.x, origin_.x + width_, "m");
-  require_in("y", y, origin_.y, origin_.y + height_, "m");
+  if (outside_ == Outside::kRefuse) {
+    require_in("x", x, origin_.x, origin_.x + width_, "m");
+    require_in("y", y, origin_.y, origin_.y + height_, "m");
+  } else {
+    require_finite("x", x);
+    require_finite("y", y);
+  }
   require_finite("heading", heading);
 }
 
 SituationId SituationGrid::id_of(double x, double y, double heading) const noexcept {
-  const int column = std::min(static_cast<int>((x - origin_.x) / cell_width_), columns_ - 1);
-  const int row = std::min(static_cast<int>((y - origin_.y) / cell_height_), rows_ - 1);
+  const double across = std::clamp(x - origin_.x, 0.0, width_);
+  const double up = std::clamp(y - origin_.y, 0.0, height_);
+  const int column = std::min(static_cast<int>(across / cell_width_), columns_ - 1);
+  const int row = std::min(static_cast<int>(up / cell_height_), rows_ - 1);
   // The nearest bin; adding a half before rounding down would itself round, up across a border.
   const double wrapped = wrapped_heading(heading);
   int bin = static_cast<int>(wrapped / heading_step_);

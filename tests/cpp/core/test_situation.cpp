@@ -211,3 +211,35 @@ TEST_CASE("a heading in radians comes in as degrees in [0, 360), and goes out in
   check_refused([] { Pose::from_radians(0.0, 0.0, kInfinity); }, "yaw", "inf");
   check_refused([] { Pose::from_radians(0.0, 0.0, kNaN); }, "yaw", "nan");
 }
+
+TEST_CASE("what lies outside is in the nearest cell where it is clamped, and refused elsewhere") {
+  const SituationGrid refusing(4.0, 3.0, 8, 6, 12, {-1.0, 2.0});
+  const SituationGrid clamping(4.0, 3.0, 8, 6, 12, {-1.0, 2.0}, Outside::kClamp);
+  Random random(9, "poses");
+  for (int i = 0; i < 20000; ++i) {
+    const double x = -1.0 + 4.0 * (3.0 * random.uniform() - 1.0);
+    const double y = 2.0 + 3.0 * (3.0 * random.uniform() - 1.0);
+    const double heading = 720.0 * random.uniform() - 360.0;
+    const double near_x = std::min(std::max(x, -1.0), 3.0),
+                 near_y = std::min(std::max(y, 2.0), 5.0);
+    CHECK(clamping.situation(x, y, heading) == refusing.situation(near_x, near_y, heading));
+    if (x != near_x || y != near_y) {
+      CHECK_THROWS_AS(refusing.situation(x, y, heading), InvalidValue);
+    }
+  }
+  CHECK(clamping.situation(1e300, -1e300, 0.0) == clamping.situation(3.0, 2.0, 0.0));
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    CHECK_THROWS_AS(clamping.situation(bad, 3.0, 0.0), InvalidValue);
+    CHECK_THROWS_AS(clamping.situation(1.0, bad, 0.0), InvalidValue);
+    CHECK_THROWS_AS(clamping.situation(1.0, 3.0, bad), InvalidValue);
+  }
+}
+
+TEST_CASE("a robot that has radians says so by name") {
+  const SituationGrid grid;
+  for (int degrees = 0; degrees < 360; degrees += 7) {
+    const double yaw = degrees * 3.14159265358979323846 / 180.0;
+    CHECK(grid.situation(Pose::from_radians(1.0, 2.0, yaw)) == grid.situation(1.0, 2.0, degrees));
+  }
+}

@@ -64,7 +64,7 @@ inline Pose to_pose(const Eigen::Isometry2d& isometry) {
   const Eigen::Vector2d ahead = isometry.linear().col(0), place = isometry.translation();
   require_finite("linear.x", ahead.x());
   require_finite("linear.y", ahead.y());
-  if (ahead.isZero(0.0)) throw InvalidValue("linear", "zero", "a rotation");
+  if (ahead.isZero(0.0)) refuse("linear", "zero", "a rotation");
   return {place.x(), place.y(), heading_of({ahead.x(), ahead.y()})};
 }
 

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "devlearn/detail/cpp17.hpp"
+
 namespace devlearn {
 
 /// A value or a call that devlearn refuses. It says which quantity, what was given, and what is
@@ -45,5 +47,9 @@ class FileError : public InvalidValue {
 
 /// The shortest decimal text that reads back as `value`; for messages and files.
 std::string to_text(double value);
+
+/// Throws InvalidValue. Headers do it by this: they are read by programs, too, that are compiled
+/// without exceptions, in which a refusal ends the program.
+[[noreturn]] void refuse(std::string quantity, std::string value, std::string allowed);
 
 }  // namespace devlearn

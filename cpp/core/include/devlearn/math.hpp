@@ -1,5 +1,7 @@
 #pragma once
 
+#include "devlearn/detail/cpp17.hpp"
+
 namespace devlearn {
 
 /// e^x by a fixed sequence of IEEE operations, within 1 ulp of the true value. Unlike the C

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "devlearn/detail/cpp17.hpp"
+
 namespace devlearn {
 
 /// What one situation holds, as a copy: three disjoint lists of motion indices that together are

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "devlearn/detail/cpp17.hpp"
+
 namespace devlearn {
 
 /// xoshiro256++ (Blackman and Vigna, 2019), seeded by SplitMix64 from a seed and the name of a

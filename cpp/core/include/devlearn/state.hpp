@@ -62,8 +62,8 @@ StateArray array_of(std::vector<T> values, Shape shape) {
   std::uint64_t count = 1;
   for (const std::uint64_t length : shape) count *= length;
   if (values.size() != count) {
-    throw InvalidValue("array.shape", std::to_string(values.size()) + " values",
-                       std::to_string(count) + ", as many as the lengths make");
+    refuse("array.shape", std::to_string(values.size()) + " values",
+           std::to_string(count) + ", as many as the lengths make");
   }
   const auto owner = std::make_shared<const std::vector<T>>(std::move(values));
   return array_over(owner->data(), std::move(shape), owner);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "devlearn/detail/cpp17.hpp"
+
 namespace devlearn {
 
 /// The version of the library, `major.minor.patch`.

@@ -185,12 +185,12 @@ void require_fields(const Def& def) {
       require_list(owner, field.name, field.range, value);
     } else if (!field.range.allows(value)) {
       if constexpr (std::is_same_v<Range, Interval>) {
-        throw InvalidValue(quantity(owner, field.name), to_text(value), field.allowed());
+        refuse(quantity(owner, field.name), to_text(value), field.allowed());
       } else if constexpr (std::is_same_v<Range, OrNone>) {
-        throw InvalidValue(quantity(owner, field.name), to_text(*value), field.allowed());
+        refuse(quantity(owner, field.name), to_text(*value), field.allowed());
       } else {
-        throw InvalidValue(quantity(owner, field.name), std::to_string(static_cast<int>(value)),
-                           field.allowed());
+        refuse(quantity(owner, field.name), std::to_string(static_cast<int>(value)),
+               field.allowed());
       }
     }
   });

@@ -9,6 +9,9 @@ namespace devlearn {
 /// are read in no order, and finding a small page costs as much as reading it. A hint only.
 void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
 
+/// Throws std::bad_array_new_length.
+[[noreturn]] void refuse_length();
+
 /// std::allocator, but what is large begins with a huge page and asks for them, and what a vector
 /// is resized by is not written to: the system hands memory out when it is first used.
 template <typename T>
@@ -22,7 +25,7 @@ struct PageAllocator {
   PageAllocator(const PageAllocator<U>&) noexcept {}
 
   T* allocate(std::size_t count) {
-    if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
+    if (count > static_cast<std::size_t>(-1) / sizeof(T)) refuse_length();
     const std::size_t bytes = count * sizeof(T);
     if (bytes < kLarge) return static_cast<T*>(::operator new(bytes));
     void* const memory = ::operator new (bytes, std::align_val_t{kHugePage});

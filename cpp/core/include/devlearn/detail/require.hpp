@@ -47,16 +47,14 @@ inline void require_count(std::string_view quantity, long long value, long long 
 /// Throws InvalidValue unless there are so many values.
 void require_size(std::string_view quantity, std::size_t size, std::size_t expected);
 
+using RequireOne = void (*)(const void* require, std::size_t i);
+void require_each(std::size_t count, const void* require, RequireOne one);
+
 /// What require(i) refuses of many values, 0 <= i < count, is refused with its place i.
 template <typename Require>
 void require_each(std::size_t count, const Require& require) {
-  std::size_t i = 0;
-  try {
-    for (; i < count; ++i) require(i);
-  } catch (const InvalidValue& error) {
-    throw InvalidValue(error.quantity() + "[" + std::to_string(i) + "]", error.value(),
-                       error.allowed());
-  }
+  require_each(count, &require,
+               [](const void* given, std::size_t i) { (*static_cast<const Require*>(given))(i); });
 }
 
 }  // namespace devlearn

@@ -60,7 +60,7 @@ struct Column {
       if (range.allows(all[i])) continue;
       const std::string quantity = "record." + std::string(name) + "[" + std::to_string(i) + "]";
       if constexpr (std::is_same_v<Range, Interval>) {
-        throw InvalidValue(quantity, to_text(all[i]), range.text());
+        refuse(quantity, to_text(all[i]), range.text());
       } else {
         const long long most = std::min<long long>(range.high, std::numeric_limits<T>::max());
         require_count(quantity, all[i], range.low, most);
