@@ -1,11 +1,13 @@
 """What several tests share."""
 
 import os
+import re
 import signal
 
 import devlearn
 import numpy as np
 import pytest
+from devlearn import cli
 from devlearn.record import POSE_COLUMNS, STEP_COLUMNS
 from hypothesis import settings
 
@@ -87,3 +89,12 @@ def refused(call, quantity=None, value=None):
     assert error.allowed
     assert str(error).endswith(f": got {error.value}; expected {error.allowed}")
     return error
+
+
+def refusal(capsys, *arguments):
+    """The one line that a refused command writes."""
+    assert cli.main(list(map(str, arguments))) == 1
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert re.fullmatch(r"devlearn: .+\n", err), err
+    return err

@@ -14,7 +14,7 @@ from pathlib import Path
 import devlearn
 import numpy as np
 import pytest
-from conftest import differences
+from conftest import differences, refusal
 from devlearn import Record, TrialConfig, World, _core, cli
 from devlearn.experiments import runs
 from devlearn.paper import jobs, measures, schedule, survival, tables
@@ -33,15 +33,6 @@ def command(*arguments, **environment):
         timeout=120,
         env=os.environ | environment,
     )
-
-
-def refusal(capsys, *arguments):
-    """The one line that a refused command writes."""
-    assert cli.main(list(map(str, arguments))) == 1
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert re.fullmatch(r"devlearn: .+\n", err), err
-    return err
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import sys
 import time
 
 import pytest
-from conftest import differences
+from conftest import differences, refusal
 from devlearn import FileError, Record, Rectangle, Trial, World, cli
 from devlearn._files import LOCK, owned_folder
 from devlearn.paper import schedule, survival
@@ -35,14 +35,6 @@ def until(condition):
     while not condition():
         assert time.monotonic() < deadline
         time.sleep(0.01)
-
-
-def refusal(capsys, *arguments):
-    assert cli.main(list(map(str, arguments))) == 1
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert re.fullmatch(r"devlearn: .+\n", err), err
-    return err
 
 
 def test_the_second_of_two_runs_in_a_folder_is_told_who_has_it_and_the_first_is_undisturbed(
