@@ -219,7 +219,8 @@ void InputFile::refuse(const char* what) {
 std::uint64_t memory_here() {
   const long pages = ::sysconf(_SC_PHYS_PAGES), bytes = ::sysconf(_SC_PAGESIZE);
   if (pages < 0 || bytes < 0) return std::numeric_limits<std::uint64_t>::max();
-  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes);
+  const auto memory = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes);
+  return std::min<std::uint64_t>(memory, std::numeric_limits<std::size_t>::max());
 }
 
 std::string text_of_file(const std::string& path, std::size_t most) {

@@ -59,22 +59,10 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-/// How much memory this machine has [bytes].
+/// How much memory this machine has, and a program could address [bytes].
 std::uint64_t memory_here();
 
 /// The text of a regular file, of a longer one `most` bytes and another. Throws FileError.
 std::string text_of_file(const std::string& path, std::size_t most);
-
-/// What `make` makes of a file's values; what it refuses is refused as the file's fault.
-template <typename Make>
-auto made_of(const std::string& source, const Make& make) -> decltype(make()) {
-  try {
-    return make();
-  } catch (const FileError&) {
-    throw;
-  } catch (const InvalidValue& error) {
-    throw FileError(source, error.quantity(), error.value(), error.allowed());
-  }
-}
 
 }  // namespace devlearn

@@ -24,6 +24,9 @@ void describe(const std::shared_ptr<const LearnerState>& state, safetensors::Con
 /// The reverse, checked against every law by building the learner. Throws FileError.
 Learner learner_of(const safetensors::Contents& contents, const std::string& source);
 
+/// A learner's own snapshot.
+safetensors::Contents contents_of(const Learner& learner);
+
 /// A generator's state. Throws FileError.
 Random::State random_of(const safetensors::Contents& contents, const std::string& source);
 

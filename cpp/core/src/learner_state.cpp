@@ -64,7 +64,7 @@ void require_laws(const LearnerState& state) {
   const std::size_t situations = all.situation.size();
   require_size("memory.effective_count", all.effective_count.size(), situations);
   require_size("memory.ineffective_count", all.ineffective_count.size(), situations);
-  require_size("memory.motions", all.motions.size(), situations * motion_count);
+  require_size("memory.motions", all.motions.size(), std::uint64_t{situations} * motion_count);
   const auto effective =
       std::accumulate(all.effective_count.begin(), all.effective_count.end(), std::size_t{0});
   require_size("memory.orientation", all.orientation.size(), effective);

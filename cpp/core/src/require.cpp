@@ -30,7 +30,7 @@ void refuse_count(std::string_view quantity, long long value, long long low, lon
   throw InvalidValue(std::string(quantity), std::to_string(value), detail::whole(low, high).text());
 }
 
-void require_size(std::string_view quantity, std::size_t size, std::size_t expected) {
+void require_size(std::string_view quantity, std::uint64_t size, std::uint64_t expected) {
   if (size != expected) {
     throw InvalidValue(std::string(quantity), std::to_string(size) + " values",
                        std::to_string(expected) + " values");

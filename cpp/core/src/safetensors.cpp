@@ -11,13 +11,11 @@
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "excerpt.hpp"
-#include "file.hpp"
 #include "json.hpp"
 
 namespace devlearn::safetensors {
 namespace {
 
-constexpr std::size_t kLengthBytes = 8;
 constexpr json::Limits kHeader{std::size_t{100} << 20, 3, 100'000};
 constexpr std::size_t kChecksumDigits = 16;
 constexpr std::size_t kAlignment = 8;
@@ -161,22 +159,13 @@ void write(const Contents& contents, const Write& write) {
   for (const Array* array : in_order(contents.arrays)) write(array->data.get(), array->bytes);
 }
 
-void write(const Contents& contents, const std::string& path) {
-  SideFile file(path);
-  write(contents, [&](const std::byte* data, std::size_t size) { file.write(data, size); });
-  file.commit();
-}
-
 void write(const Contents& contents, std::ostream& stream) {
   write(contents, [&](const std::byte* data, std::size_t size) {
     stream.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   });
 }
 
-namespace {
-
-// Of a file of this size, whose first bytes these are.
-std::uint64_t header_length(const std::byte* bytes, std::uint64_t size, const std::string& source) {
+std::size_t header_length(const std::byte* bytes, std::uint64_t size, const std::string& source) {
   if (size < kLengthBytes) {
     throw FileError(source, "", std::to_string(size) + " bytes", "a snapshot: at least 8 bytes");
   }
@@ -193,48 +182,25 @@ std::uint64_t header_length(const std::byte* bytes, std::uint64_t size, const st
     throw FileError(source, "header length", std::to_string(length),
                     "at most " + std::to_string(kHeader.bytes) + " bytes");
   }
-  return length;
+  return static_cast<std::size_t>(length);
 }
 
-}  // namespace
-
-std::vector<std::byte> to_bytes(const Contents& contents) {
-  std::vector<std::byte> bytes;
-  write(contents, [&](const std::byte* data, std::size_t size) {
-    bytes.insert(bytes.end(), data, data + size);
-  });
-  return bytes;
-}
-
-std::vector<std::byte> read_file(const std::string& path) {
-  InputFile file(path);
-  std::vector<std::byte> bytes(kLengthBytes);
-  bytes.resize(file.read(bytes.data(), bytes.size()));
-  const std::uint64_t length = header_length(bytes.data(), file.size(), path);
-  bytes.resize(kLengthBytes + length);
-  bytes.resize(kLengthBytes + file.read(bytes.data() + kLengthBytes, length));
-  const std::string_view header(reinterpret_cast<const char*>(bytes.data()) + kLengthBytes,
-                                bytes.size() - kLengthBytes);
-  const json::Document document(header, path, kHeader, "header");
+std::uint64_t data_described(std::string_view header, const std::string& source) {
+  const json::Document document(header, source, kHeader, "header");
   std::uint64_t described = 0;
   document.root().each_field([&](const std::string& name, const json::Node& field) {
     if (name == kMetadata) return;
     const json::Node offsets = field["data_offsets"];
     if (offsets.size() == 2) described = std::max(described, offsets[1].whole_number());
   });
-  const std::uint64_t data_size = file.size() - kLengthBytes - length;
-  if (described != data_size) {
-    throw FileError(path, "", std::to_string(data_size) + " bytes of data",
-                    std::to_string(described) + ", as the header describes");
-  }
-  const std::uint64_t memory = memory_here();
-  if (file.size() > memory) {
-    throw FileError(path, "", std::to_string(file.size()) + " bytes",
-                    "at most " + std::to_string(memory) + ", the memory of this machine");
-  }
-  const std::size_t begun = bytes.size();
-  bytes.resize(file.size());
-  bytes.resize(begun + file.read(bytes.data() + begun, bytes.size() - begun));
+  return described;
+}
+
+std::vector<std::byte> to_bytes(const Contents& contents) {
+  std::vector<std::byte> bytes;
+  write(contents, [&](const std::byte* data, std::size_t size) {
+    bytes.insert(bytes.end(), data, data + size);
+  });
   return bytes;
 }
 
@@ -273,7 +239,7 @@ Array array_at(const json::Node& described, const std::byte* data, std::size_t d
     shape.refuse(std::to_string(end - begin) + " bytes", "as many as dtype and shape make");
   }
   array.data = {std::shared_ptr<const void>(), data + begin};
-  array.bytes = end - begin;
+  array.bytes = static_cast<std::size_t>(end - begin);
   return array;
 }
 
@@ -335,7 +301,7 @@ void require_checksum(const std::string& found, std::string_view header, const s
 }  // namespace
 
 Contents read(const std::byte* bytes, std::size_t size, const std::string& source) {
-  const std::uint64_t length = header_length(bytes, size, source);
+  const std::size_t length = header_length(bytes, size, source);
   const std::string_view header(reinterpret_cast<const char*>(bytes) + kLengthBytes, length);
   const std::byte* const data = bytes + kLengthBytes + length;
   const std::size_t data_size = size - kLengthBytes - length;

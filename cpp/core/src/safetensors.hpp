@@ -6,6 +6,7 @@
 #include <iosfwd>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "devlearn/state.hpp"
@@ -37,6 +38,13 @@ void write(const Contents& contents, const std::string& path);
 /// To a stream, which is in a failed state afterwards where it could not take everything.
 void write(const Contents& contents, std::ostream& stream);
 std::vector<std::byte> to_bytes(const Contents& contents);
+
+/// A snapshot begins with so many bytes that say how long its header is.
+constexpr std::size_t kLengthBytes = 8;
+/// How long that is, where these are the first of `size` bytes. Throws FileError.
+std::size_t header_length(const std::byte* bytes, std::uint64_t size, const std::string& source);
+/// How many bytes of data a header describes. Throws FileError.
+std::uint64_t data_described(std::string_view header, const std::string& source);
 
 /// All of a file. What its header does not describe, or no memory here could hold, is refused
 /// before it is read. Throws FileError.

@@ -1,6 +1,7 @@
 #include "devlearn/detail/situation_store.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "devlearn/error.hpp"
@@ -74,6 +75,7 @@ void SituationStore::reserve(std::size_t situations, Pages pages) {
   if (situations >= kEmpty) {
     throw InvalidValue("situations", std::to_string(situations), "at most 4294967294");
   }
+  if (situations > std::numeric_limits<std::size_t>::max() / block_bytes_) refuse_length();
   if (situations * block_bytes_ > blocks_.size()) {
     decltype(blocks_) roomier(situations * block_bytes_);
     std::copy_n(blocks_.data(), size_ * block_bytes_, roomier.data());

@@ -7,8 +7,8 @@
 #include "devlearn/error.hpp"
 #include "devlearn/version.hpp"
 #include "excerpt.hpp"
-#include "file.hpp"
 #include "learner_snapshot.hpp"
+#include "made_of.hpp"
 
 namespace devlearn {
 namespace {
@@ -185,34 +185,18 @@ Learner learner_of(const safetensors::Contents& contents, const std::string& sou
 
 // --- learners ------------------------------------------------------------------------------------
 
-namespace {
-
-// Hands the contents of a learner's snapshot to write(contents).
-template <typename Write>
-auto described(const Learner& learner, const Write& write) {
-  const auto state = std::make_shared<const LearnerState>(learner.state());
+safetensors::Contents contents_of(const Learner& learner) {
   safetensors::Contents contents{preamble(kFormat, kFormatVersion), {}};
-  describe(state, contents);
-  return write(contents);
-}
-
-}  // namespace
-
-void save(const Learner& learner, const std::string& path) {
-  described(learner, [&](const auto& contents) { safetensors::write(contents, path); });
+  describe(std::make_shared<const LearnerState>(learner.state()), contents);
+  return contents;
 }
 
 void save(const Learner& learner, std::ostream& stream) {
-  described(learner, [&](const auto& contents) { safetensors::write(contents, stream); });
+  safetensors::write(contents_of(learner), stream);
 }
 
 std::vector<std::byte> to_bytes(const Learner& learner) {
-  return described(learner, [](const auto& contents) { return safetensors::to_bytes(contents); });
-}
-
-Learner load_learner(const std::string& path) {
-  const std::vector<std::byte> bytes = safetensors::read_file(path);
-  return load_learner(bytes.data(), bytes.size(), path);
+  return safetensors::to_bytes(contents_of(learner));
 }
 
 Learner load_learner(std::istream& stream) {

@@ -2,6 +2,7 @@
 
 #include "file.hpp"
 #include "json_fields.hpp"
+#include "made_of.hpp"
 
 namespace devlearn {
 

@@ -10,9 +10,9 @@
 #include "devlearn/learner_agent.hpp"
 #include "devlearn/random_agent.hpp"
 #include "excerpt.hpp"
-#include "file.hpp"
 #include "json.hpp"
 #include "learner_snapshot.hpp"
+#include "made_of.hpp"
 
 namespace devlearn {
 namespace {

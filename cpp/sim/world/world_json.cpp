@@ -6,6 +6,7 @@
 #include "devlearn/world.hpp"
 #include "file.hpp"
 #include "json.hpp"
+#include "made_of.hpp"
 
 namespace devlearn {
 namespace {

@@ -14,10 +14,10 @@ inline std::string golden_text(const std::vector<std::string>& lines, std::size_
       hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
     }
   }
-  char head[80];
-  std::snprintf(head, sizeof head, "hash %016llx of %zu lines\n",
-                static_cast<unsigned long long>(hash), lines.size());
-  std::string text = head;
+  char digits[20];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+  std::string text =
+      std::string("hash ") + digits + " of " + std::to_string(lines.size()) + " lines\n";
   for (std::size_t i = 0; i < first; ++i) text += lines[i] + "\n";
   text += "...\n";
   for (std::size_t i = lines.size() - last; i < lines.size(); ++i) text += lines[i] + "\n";

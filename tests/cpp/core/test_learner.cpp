@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -411,9 +412,10 @@ std::string numbers(const char* format, long long a, long long b, long long c, l
 std::string orientations(const SituationMemory& memory) {
   std::string text;
   for (const double o : memory.orientation) {
-    char number[40];
-    std::snprintf(number, sizeof number, " %.13a", o);
-    text += number;
+    char digits[40];  // as %.13a writes them, which not every C library knows
+    const auto end =
+        std::to_chars(digits, digits + sizeof digits, o, std::chars_format::hex, 13).ptr;
+    text += " 0x" + std::string(digits, end);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <iterator>
 #include <new>
@@ -27,14 +28,21 @@ namespace {
 constexpr long kNever = -1;
 long failing = kNever;  // how many allocations succeed before the one that fails
 
+// Not every C library has aligned_alloc: what malloc gave is noted in front of the memory.
 void* allocate(std::size_t size, std::size_t alignment) {
   ++allocations;
   if (failing == 0) throw std::bad_alloc();
   if (failing > 0) --failing;
-  void* const memory =
-      std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-  if (memory == nullptr) throw std::bad_alloc();
+  void* const given = std::malloc(sizeof(void*) + alignment + size);
+  if (given == nullptr) throw std::bad_alloc();
+  const auto first = reinterpret_cast<std::uintptr_t>(given) + sizeof(void*);
+  auto* const memory = reinterpret_cast<void**>((first + alignment - 1) / alignment * alignment);
+  memory[-1] = given;
   return memory;
+}
+
+void release(void* memory) noexcept {
+  if (memory != nullptr) std::free(static_cast<void**>(memory)[-1]);
 }
 
 }  // namespace
@@ -50,10 +58,10 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     return nullptr;
   }
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
 
 namespace {
 

@@ -50,7 +50,7 @@ constexpr const char* dtype_of() {
 template <typename T>
 StateArray array_over(const T* values, Shape shape, const std::shared_ptr<const void>& owner) {
   std::size_t bytes = sizeof(T);
-  for (const std::uint64_t length : shape) bytes *= length;
+  for (const std::uint64_t length : shape) bytes *= static_cast<std::size_t>(length);
   return {dtype_of<T>(), std::move(shape),
           std::shared_ptr<const std::byte>(owner, reinterpret_cast<const std::byte*>(values)),
           bytes};

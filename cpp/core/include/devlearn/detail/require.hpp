@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -45,7 +46,7 @@ inline void require_count(std::string_view quantity, long long value, long long 
 }
 
 /// Throws InvalidValue unless there are so many values.
-void require_size(std::string_view quantity, std::size_t size, std::size_t expected);
+void require_size(std::string_view quantity, std::uint64_t size, std::uint64_t expected);
 
 using RequireOne = void (*)(const void* require, std::size_t i);
 void require_each(std::size_t count, const void* require, RequireOne one);

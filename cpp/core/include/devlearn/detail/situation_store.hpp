@@ -113,7 +113,7 @@ class SituationStore {
   // The upper half of a situation's hash says in which bucket to begin; the mark says what lies in
   // one, so that other blocks are hardly ever looked at.
   std::size_t home_of(std::uint64_t hash) const noexcept {
-    return (hash >> 33) * buckets_.size() >> 31;
+    return static_cast<std::size_t>((hash >> 33) * buckets_.size() >> 31);
   }
   Found look_for(SituationId situation) const noexcept {
     const std::uint64_t hash = scattered(situation);
