@@ -1,5 +1,6 @@
 """The embedding guide's programs compile as they stand, and the reference leaves out no header."""
 
+import json
 import re
 import shutil
 import subprocess
@@ -81,6 +82,26 @@ def test_an_older_standard_is_told_what_is_missing(tmp_path, header):
     )
     first = next(line for line in compiled.stderr.splitlines() if " error: " in line)
     assert "devlearn needs C++17 or later: compile with -std=c++17" in first
+
+
+def test_the_least_cmake_is_one_wherever_it_is_named():
+    presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))
+    least = presets["cmakeMinimumRequired"]
+    reads = {1: 19, 2: 20, 3: 21, 4: 23, 5: 24, 6: 25}  # formats of presets, from which CMake 3 on
+    assert reads[presets["version"]] <= least["minor"]
+    named = {f"{least['major']}.{least['minor']}"}
+    files = subprocess.run(
+        ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    for name in files.stdout.splitlines():
+        if name.endswith(("CMakeLists.txt", ".cmake")):
+            text = (ROOT / name).read_text(encoding="utf-8")
+            named.update(re.findall(r"^cmake_minimum_required\(VERSION (.+)\)", text, re.MULTILINE))
+    for name in ("docs/install.md", "docs/stability.md"):
+        said = re.findall(r"CMake (\d+\.\d+)", (ROOT / name).read_text(encoding="utf-8"))
+        assert said, name
+        named.update(said)
+    assert named == {"3.22"}
 
 
 def test_every_header_is_in_the_reference():
