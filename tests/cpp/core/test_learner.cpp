@@ -890,6 +890,20 @@ TEST_CASE("a reservation that memory cannot meet changes nothing") {
   CHECK(same_state(learner, twin));
   CHECK(go_on_alike(learner, twin, 85, 20));
 }
+
+TEST_CASE("a reservation gives its room or is refused where 32 bits cannot count the bytes, too") {
+  LearnerConfig config;
+  config.motion_count = 65535;
+  Learner learner(config);
+  constexpr std::size_t kSituations = 4682;  // a little more than 2^32 bytes
+  bool refused = false;
+  try {
+    learner.reserve(kSituations);
+  } catch (const std::bad_alloc&) {
+    refused = true;
+  }
+  CHECK((refused || learner.room() >= kSituations));
+}
 #endif
 
 TEST_CASE("situation ids reach to 2^63 - 1") {
