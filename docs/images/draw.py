@@ -7,6 +7,7 @@ import devlearn
 import matplotlib
 import matplotlib.pyplot as plt
 from devlearn import plots
+from devlearn.plots.panels import shared_legend
 from devlearn.plots.style import BLACK
 from PIL import Image
 
@@ -36,13 +37,14 @@ def draw_worlds():
 def draw_kinds():
     """One world of each kind that is drawn by chance, at three difficulties."""
     for kind in ("similar", "clutter", "corridors", "rooms", "traps"):
-        figure, axes = plt.subplots(1, 3, figsize=(6.0, 2.25), layout="constrained")
-        figure.get_layout_engine().set(h_pad=0.06)
+        figure, axes = plt.subplots(1, 3, figsize=(6.0, 2.5), layout="constrained")
+        figure.get_layout_engine().set(h_pad=0.08)
         for ax, difficulty in zip(axes, (0.0, 0.5, 1.0)):
             world = devlearn.World.random(kind, 1, difficulty=difficulty)
             plots.plot_world(world, ax=ax, sonar=False, legend=False)
             ax.set_title(f"difficulty {difficulty:g}")
             ax.set(xlabel="", ylabel="", xticks=[], yticks=[])
+        shared_legend(figure, axes)
         save(figure, f"kind_{kind}.png", 110)
 
 
@@ -53,27 +55,27 @@ def draw_readme():
     trial.free_learning(10_000)
     paths = trial.path_learning(600)
 
-    figure = plt.figure(figsize=(8.0, 2.95))
+    figure = plt.figure(figsize=(8.0, 3.2))
     axes = [
-        figure.add_axes((left / 8.0, 0.37 / 2.95, 2.35 / 8.0, 2.35 / 2.95))
+        figure.add_axes((left / 8.0, 0.62 / 3.2, 2.35 / 8.0, 2.35 / 3.2))
         for left in (0.37, 2.98, 5.59)
     ]
     plots.plot_trajectory(first, ax=axes[0], legend=False)
-    plots.plot_preferences(trial.world, trial.learner, ax=axes[1], colorbar=False, legend=False)
-    plots.plot_sef(trial.world, ax=axes[2], colorbar=False)
+    plots.plot_preferences(trial, ax=axes[1], colorbar=False, legend=False)
+    plots.plot_sef(trial.world, ax=axes[2], colorbar=False, legend=False)
     plots.plot_trajectory(paths, ax=axes[2], entry=-1, by=None, color=BLACK, world=False)
     axes[2].lines[-1].set_linewidth(2.0)
-    number, steps, _ = paths.rounds[-1]
     titles = (
-        "round 1: exploring",
+        "its first round: exploring",
         "what it learned to prefer",
-        f"round {number}: {steps} steps to the target",
+        f"its last round: {paths.rounds['steps'][-1]} steps",
     )
     for ax, title in zip(axes, titles):
         ax.set_title(title)
     for ax in axes[1:]:
         ax.set_ylabel("")
         ax.set_yticks([])
+    shared_legend(figure, axes)
     save(figure, "readme.png", 150)
 
 

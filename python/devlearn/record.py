@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _npz
-from .errors import FileError, InvalidValue, MissingExtra
+from .errors import FileError, InvalidValue, MissingExtra, WrongType
 
 if TYPE_CHECKING:
     import pandas
@@ -180,12 +180,20 @@ class Record:  # noqa: D101 - made of the columns
 
     @property
     def world(self) -> _core.World:
-        """The world it happened in."""
+        """The world it happened in. Raises InvalidValue where its provenance does not say."""
+        if "json" not in self.provenance.get("world", {}):
+            raise InvalidValue(
+                "record.provenance", "no world", "one that tells of world and config"
+            )
         return _core.World.from_json(self.provenance["world"]["json"])
 
     @property
     def config(self) -> _core.TrialConfig:
-        """The configuration it happened under."""
+        """The configuration it happened under. Raises InvalidValue likewise."""
+        if "config" not in self.provenance:
+            raise InvalidValue(
+                "record.provenance", "no config", "one that tells of world and config"
+            )
         return _core.TrialConfig.from_dict(self.provenance["config"])
 
     @property
@@ -239,6 +247,10 @@ class Record:  # noqa: D101 - made of the columns
 
     def _entry(self, i: int) -> int:
         count = len(self.rounds)
+        if count == 0:
+            raise InvalidValue("record", "no rounds", "one that holds rounds")
+        if not hasattr(i, "__index__"):
+            raise WrongType("round entry", repr(i), "a whole number")
         if not -count <= i < count:
             raise InvalidValue("round entry", i, f"in [{-count}, {count - 1}]")
         return i % count

@@ -39,8 +39,11 @@ def counts_before(
 
 def window_of(record: Record, entry: int, window: tuple[int, int] | None) -> tuple[int, int]:
     """``window`` within the round, as a half-open range of its steps."""
-    count = int(record.rounds["steps"][entry])
-    start, stop = (0, count) if window is None else window
+    steps = record.steps_of(entry)
+    count = steps.stop - steps.start
+    if window is None:
+        return 0, count
+    start, stop = window
     if not 0 <= start < stop:
         raise InvalidValue("window", (start, stop), "0 <= start < stop")
     return min(start, count), min(stop, count)

@@ -99,7 +99,7 @@ def find_window(
             raise InvalidValue("kinds", kinds, 'letters of "abcd"')
     if length < MIN_RUN + 1:
         raise InvalidValue("length", length, f"at least {MIN_RUN + 1}")
-    steps = int(record.rounds["steps"][entry])
+    _, steps = window_of(record, entry, None)
     starts = np.arange(max(1, steps - length + 1))
     holds = np.ones(len(starts), dtype=bool)
     for name, which in steps_of_kinds(record, entry).items():

@@ -3,26 +3,47 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from .._core import Learner, SituationGrid, StateEvaluation, TrialConfig, World
+from .._core import Learner, SituationGrid, StateEvaluation, Trial, TrialConfig, World
 from ..errors import InvalidValue
 from ..record import Record
 
-
-def world_of(source: World | Record) -> World:
-    """The world itself, or a record's."""
-    return source.world if isinstance(source, Record) else source
+Source = Union[World, Record, Trial]  # of a world, and of more but for the first
 
 
-def config_of(source: World | Record, config: TrialConfig | None = None) -> TrialConfig:
-    """The configuration given, else a record's own, else the default."""
+def world_of(source: Source) -> World:
+    """The world itself, or that of a record or a trial."""
+    return source if isinstance(source, World) else source.world
+
+
+def config_of(source: Source, config: TrialConfig | None = None) -> TrialConfig:
+    """The configuration given, else a record's or a trial's own, else the default."""
     if config is not None:
         return config
-    return source.config if isinstance(source, Record) else TrialConfig()
+    return TrialConfig() if isinstance(source, World) else source.config
+
+
+def grid_of(
+    source: Source, grid: SituationGrid | None = None, config: TrialConfig | None = None
+) -> SituationGrid:
+    """The grid given, else the one that a trial of this source and configuration learns on.
+
+    Raises InvalidValue for a world alone, which knows none.
+    """
+    if grid is not None:
+        return grid
+    if config is None and isinstance(source, World):
+        raise InvalidValue(
+            "grid", "none, and a World alone, which does not say on which grid was learned",
+            "the Trial or its Record instead of the World, or grid=, or config=",
+        )  # fmt: skip
+    if config is None and isinstance(source, Trial):
+        return source.grid
+    return Trial(world_of(source), config_of(source, config)).grid
 
 
 class SefField(NamedTuple):
@@ -39,7 +60,7 @@ class SefField(NamedTuple):
 
 
 def sef_field(
-    source: World | Record,
+    source: Source,
     evaluation: StateEvaluation | None = None,
     walls_count: bool | None = None,
     points: int = 301,
@@ -47,9 +68,9 @@ def sef_field(
 ) -> SefField:
     """SEF over the arena, ``points`` (at least 2) along its longer side.
 
-    ``evaluation`` and ``walls_count`` are a record's own, else the defaults. SEF falls steeply at
-    the obstacles, which would take most of a scale: ``floor`` is by default half of the range of
-    the target's term below that term's least value, and never below the least SEF. Raises
+    ``evaluation`` and ``walls_count`` are a record's or a trial's own, else the defaults. SEF falls
+    steeply at the obstacles, which would take most of a scale: ``floor`` is by default half of the
+    range of the target's term below that term's least value, and never below the least SEF. Raises
     InvalidValue.
     """
     if points < 2:
@@ -86,35 +107,34 @@ class PreferenceField(NamedTuple):
 
 
 def preference_field(
-    world: World | Record,
-    learner: Learner,
+    world: Source,
+    learner: Learner | None = None,
     *,
     grid: SituationGrid | None = None,
     config: TrialConfig | None = None,
 ) -> PreferenceField:
-    """Where a learner prefers to go, cell by cell, as ``plot_preferences`` draws it.
+    """Where a learner prefers to go, cell by cell; ``plot_preferences`` draws it.
 
     In each situation experienced the effective motion of the highest orientation (the first of
     equals) gives the direction heading + steering angle. A cell's arrow is the mean of these unit
     vectors over its headings, each weighted by how often that motion was learned: of length 1 where
     all agree, short where the headings lead different ways.
+
+    ``world`` is best the Trial, whose learner is meant where none is given, or its Record: both
+    know the grid that was learned on and the robot's motions. With a World alone ``config`` or
+    ``grid`` is needed; the motions are those of ``config``, else the paper's. Raises InvalidValue.
     """
-    config = config_of(world, config)
-    place = world_of(world)
-    if grid is None:
-        columns, rows = (
-            max(1, math.ceil(side / config.cell_size - 1e-9))
-            for side in (place.width, place.height)
+    if learner is None and isinstance(world, Trial):
+        learner = world.learner
+    if learner is None:
+        raise InvalidValue("learner", "none", "a Learner, or a Trial whose agent is one")
+    grid = grid_of(world, grid, config)
+    angles = config_of(world, config).robot.steering_angles
+    motions = learner.config.motion_count
+    if motions != len(angles):
+        raise InvalidValue(
+            "learner.config.motion_count", motions, f"{len(angles)}, one of each steering angle"
         )
-        grid = SituationGrid(
-            max(place.width, columns * config.cell_size),
-            max(place.height, rows * config.cell_size),
-            columns,
-            rows,
-            config.heading_bins,
-            place.origin,
-        )
-    angles = config.robot.steering_angles
     cells: dict[tuple[float, float], list[float]] = {}
     for situation in learner.situations():
         if situation >= grid.count:
@@ -126,8 +146,6 @@ def preference_field(
             continue
         best = int(np.argmax(memory.orientation))
         motion, times = memory.effective[best], memory.times_learned[best]
-        if motion >= len(angles):
-            raise InvalidValue("motion", motion, f"one of the robot's {len(angles)}")
         direction = math.radians(heading + angles[motion])
         cell[0] += times * math.cos(direction)
         cell[1] += times * math.sin(direction)

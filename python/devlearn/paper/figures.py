@@ -234,6 +234,7 @@ class Gallery:
             steps = rounds.rounds["steps"][-1]
             ax.set_title(f"round {len(rounds.rounds)}: {steps} steps\n(shortest {shortest})")
             needed.append(str(len(rounds.rounds)))
+        shared_legend(figure, axes)
         return [
             Drawn(
                 "fig12_new_starts",
@@ -245,9 +246,8 @@ class Gallery:
 
     def _beyond(self) -> list[Drawn]:
         made = self.settled[0]
-        assert made.trial.learner is not None
         preferences, ax = panels(1, 1, width=4.8, height=4.4)
-        plots.plot_preferences(self.world, made.trial.learner, config=self.config, ax=ax[0])
+        plots.plot_preferences(made.trial, ax=ax[0])
         kinds, ax = panels(1, 1, width=4.2, height=4.2)
         plots.plot_trajectory(self.four[0].first, ax=ax[0])
         return [
@@ -364,7 +364,7 @@ def draw_run(trial: Trial, paths: Record) -> Drawn:
         plots.plot_trajectory(paths, ax=axes[1], entry=-1)
         plots.plot_rounds(paths, ax=axes[2], settled=measures.settled_round(paths))
     if trial.learner is not None:
-        plots.plot_preferences(trial.world, trial.learner, config=trial.config, ax=axes[0])
+        plots.plot_preferences(trial, ax=axes[0])
     return Drawn("overview", figure, "One run: what it prefers, its last path, its rounds.")
 
 

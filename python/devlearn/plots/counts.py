@@ -8,7 +8,16 @@ import numpy as np
 
 from ..analysis.counts import counts_before, window_of
 from ..record import Record
-from .style import BLUE, VERMILLION, axes_of_height, styled, thousands, whole_numbers
+from .rounds import round_name
+from .style import (
+    BLUE,
+    VERMILLION,
+    axes_of_height,
+    say_nothing,
+    styled,
+    thousands,
+    whole_numbers,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,11 +61,13 @@ def plot_counts(
             gid=gid,
             **how,
         )
-    ax.set_xlabel("step")
+    ax.set_xlabel("step" if len(record.rounds) == 1 else f"step of {round_name(record, entry)}")
     ax.set_ylabel(f"mappings since step {start + 1}" if relative else "sensorimotor mappings")
     whole_numbers(ax.xaxis, ax.yaxis)
     if not few and not relative:
         ax.set_ylim(bottom=0)
+    if len(number) == 0:
+        say_nothing(ax, "no steps")
     if legend:
         ax.legend(loc="upper left" if few else "best", handlelength=2.4)
     return ax

@@ -49,7 +49,7 @@ def plot_episodes(
         record,
         ax=axes_of_height(ax, 3.0),
         entry=entry,
-        steps=(start, stop),
+        steps=window,
         relative=relative,
         legend=False,
     )
@@ -106,5 +106,5 @@ def plot_episodes(
             gid="absent",
         )
     if legend:
-        legend_below(ax, handles, columns=2)
+        legend_below(ax, handles, columns=2, length=2.2)
     return ax

@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from .._core import Kind
 from ..errors import InvalidValue
 from ..record import Record
+from .rounds import round_name
 from .style import (
     BLACK,
     BLUE,
@@ -19,11 +20,20 @@ from .style import (
     ORANGE,
     colorbar_beside,
     dark_cividis,
+    in_rows,
     legend_below,
     styled,
     thousands,
 )
-from .world import arena_axes, draw_arena, draw_obstacles, draw_robot, draw_target
+from .world import (
+    AT_START,
+    arena_axes,
+    draw_arena,
+    draw_obstacles,
+    draw_robot,
+    draw_target,
+    named_marks,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,23 +68,31 @@ def plot_trajectory(
 ) -> Axes:
     """Draw the path of one round over its world: Figs. 6 and 9 to 12.
 
-    ``entry`` is the index in ``record.rounds``. ``by="kind"`` tells explored, exploited and
-    exhausted steps apart, each marker standing where the choice was made, with their numbers in the
-    legend; ``by="time"`` colours by step; ``None`` draws one line in ``color`` (``label`` for a
-    legend of your own). ``world=False`` adds the path to what is already drawn.
+    ``entry`` is the index in ``record.rounds``; the title counts from 1, as rounds are asked for,
+    and gives the trial's number of the round where that is another. ``by="kind"`` tells explored,
+    exploited and exhausted steps apart, each marker standing where the choice was made, with their
+    numbers in the legend; ``by="time"`` colours by step; ``None`` draws one line in ``color``,
+    named ``label``. ``world=False`` adds the path to what is already drawn.
     """
     if by not in ("kind", "time", None):
         raise InvalidValue("by", by, '"kind", "time" or None')
     path = record.path(entry)
     place = record.world
-    timed, kinded = by == "time", by == "kind"
-    ax = arena_axes(ax, place, bar=legend and timed, legend=legend and kinded, title=title)
+    bar = legend and by == "time" and len(path) > 1
+    kinds = record.kind[record.steps_of(entry)]
+    rows = 2 if by == "kind" and len(np.unique(kinds)) > 1 else 1
+    _, steps, arrived = record.rounds[entry]
+    name = round_name(record, entry)
+    told = name + ("\n" if name.endswith(")") else ": ") + f"{thousands(steps)} steps"
+    told += "" if arrived else ", not arrived"
+    ax = arena_axes(
+        ax, place, bar=bar, legend=legend and rows, title=title and 1 + told.count("\n")
+    )
     if world:
         draw_arena(ax, place)
         draw_obstacles(ax, place)
     handles: list[Any] = []
     if by == "kind":
-        kinds = record.kind[record.steps_of(entry)]
         for order, (kind, (name, how)) in enumerate(_KINDS.items()):
             chosen = kinds == int(kind)
             count = int(np.count_nonzero(chosen))
@@ -102,22 +120,25 @@ def plot_trajectory(
         lines_by_time.set_array(np.arange(1, len(path)))
         lines_by_time.set_gid("path")
         ax.add_collection(lines_by_time, autolim=False)
-        if legend:
+        if bar:
             colorbar_beside(ax, lines_by_time, "step")
     else:
-        ax.plot(
+        (line,) = ax.plot(
             path[:, 0], path[:, 1], color=color, linewidth=0.9, label=label, zorder=2.0, gid="path"
         )
+        handles += [line] if label is not None else []
     if world:
-        draw_robot(ax, record.config.robot.radius, path[0], zorder=3.0)
+        draw_robot(ax, record.config.robot.radius, path[0], AT_START, zorder=3.0)
         draw_target(ax, place)
-    if legend and handles:
-        legend_below(ax, handles)
+    if legend and (world or by == "kind"):
+        marks = named_marks(ax)
+        if len(handles) > 1:
+            upper, lower = handles[:3], [*handles[3:], *marks]
+            legend_below(ax, in_rows(upper, lower), columns=len(upper), length=1.3)
+        else:
+            legend_below(ax, [*handles, *marks])
     if title:
-        number, steps, arrived = record.rounds[entry]
-        ax.set_title(
-            f"round {number}: {thousands(steps)} steps" + ("" if arrived else ", not arrived")
-        )
+        ax.set_title(told)
     return ax
 
 

@@ -8,9 +8,14 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.colors import LogNorm, Normalize
 
-from .._core import Learner, SituationGrid, TrialConfig, World
-from ..analysis.fields import config_of, preference_field, world_of
-from ..record import Record
+from .._core import Learner, SituationGrid, TrialConfig
+from ..analysis.fields import (
+    Source,
+    config_of,
+    grid_of,
+    preference_field,
+    world_of,
+)
 from .style import GREY, colorbar_beside, dark_cividis, legend_below, styled
 from .world import arena_axes, draw_arena, draw_obstacles, draw_target
 
@@ -20,8 +25,8 @@ if TYPE_CHECKING:
 
 @styled
 def plot_preferences(
-    world: World | Record,
-    learner: Learner,
+    world: Source,
+    learner: Learner | None = None,
     *,
     grid: SituationGrid | None = None,
     config: TrialConfig | None = None,
@@ -33,24 +38,30 @@ def plot_preferences(
 
     One arrow a cell (``preference_field``): its direction is where the preferred motions lead, its
     length how much the cell's headings agree, its colour how often they were learned, from pale to
-    dark. A dot is a cell that was experienced and where nothing is effective. ``grid`` and
-    ``config`` are the trial's (a record's own, else the defaults); beyond the paper's figures.
+    dark. A dot is a cell that was experienced and where nothing is effective. Cells whose centre
+    the robot's body could not be at, as it would touch something, are left out, and no arrow
+    reaches into an obstacle. Beyond the paper's figures.
+
+    ``plot_preferences(trial)`` draws the trial's learner on the grid that it learns on. A Record
+    and a Learner do as well; with a World alone the ``config`` or the ``grid`` that was learned on
+    is needed. Raises InvalidValue.
     """
     place = world_of(world)
-    config = config_of(world, config)
+    grid = grid_of(world, grid, config)
     field = preference_field(world, learner, grid=grid, config=config)
+    room = np.asarray(place.clearance(field.x, field.y, walls_count=True))
+    stands = room > config_of(world, config).robot.radius - 1e-6  # but for rounding
+    knows, nothing = stands & (field.times > 0), stands & (field.times == 0)
     ax = arena_axes(ax, place, bar=colorbar, legend=legend)
     draw_arena(ax, place)
     draw_obstacles(ax, place)
-    knows = field.times > 0
-    width = 0.9 * config.cell_size
-    if grid is not None:
-        width = 0.9 * min(grid.width / grid.columns, grid.height / grid.rows)
+    width = 0.9 * min(grid.width / grid.columns, grid.height / grid.rows)
+    length = np.minimum(width, 2 * room[knows])  # of the longest that keeps off what is near
     arrows = ax.quiver(
         field.x[knows],
         field.y[knows],
-        width * field.u[knows],
-        width * field.v[knows],
+        length * field.u[knows],
+        length * field.v[knows],
         field.times[knows],
         cmap=dark_cividis(),
         norm=_log_norm(field.times[knows]),
@@ -68,10 +79,10 @@ def plot_preferences(
     )
     arrows.set_gid("preferences")
     handles: list[Any] = []
-    if not knows.all():
+    if nothing.any():
         handles += ax.plot(
-            field.x[~knows],
-            field.y[~knows],
+            field.x[nothing],
+            field.y[nothing],
             linestyle="none",
             marker="o",
             markersize=1.8,

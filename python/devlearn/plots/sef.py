@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from .._core import StateEvaluation, World
-from ..analysis.fields import sef_field, world_of
+from .._core import StateEvaluation
+from ..analysis.fields import Source, sef_field, world_of
 from ..errors import InvalidValue
-from ..record import Record
-from .style import colorbar_beside, new_figure, styled
+from .style import colorbar_beside, legend_below, new_figure, styled
 from .world import arena_axes, draw_arena, draw_obstacles, draw_target
 
 if TYPE_CHECKING:
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
 
 @styled
 def plot_sef(
-    world: World | Record,
+    world: Source,
     *,
     ax: Axes | None = None,
     evaluation: StateEvaluation | None = None,
@@ -29,13 +28,15 @@ def plot_sef(
     points: int = 301,
     floor: float | None = None,
     colorbar: bool = True,
+    legend: bool = True,
 ) -> Axes:
     """Draw the state evaluation function (Eq. 6) over the arena as a map: Fig. 4 from above.
 
-    ``evaluation`` and ``walls_count`` are a record's own, else the defaults. SEF falls steeply at
-    the obstacles; the scale ends at ``floor`` (by default half of the target's term's range below
-    that term's least value), everything below has the darkest colour, and the colour bar's pointed
-    end says so. ``points`` along the longer side. ``kind="surface"`` is ``plot_sef_surface``.
+    ``evaluation`` and ``walls_count`` are a record's or a trial's own, else the defaults. SEF falls
+    steeply at the obstacles; the scale ends at ``floor`` (by default half of the target's term's
+    range below that term's least value), everything below has the darkest colour, and the colour
+    bar's pointed end says so. ``points`` along the longer side. ``kind="surface"`` is
+    ``plot_sef_surface``.
     """
     if kind == "surface":
         return plot_sef_surface(
@@ -45,7 +46,7 @@ def plot_sef(
         raise InvalidValue("kind", kind, '"map" or "surface"')
     energy = sef_field(world, evaluation, walls_count, points, floor)
     place = world_of(world)
-    ax = arena_axes(ax, place, bar=colorbar)
+    ax = arena_axes(ax, place, bar=colorbar, legend=legend)
     dx, dy = energy.x[1] - energy.x[0], energy.y[1] - energy.y[0]
     image = ax.imshow(
         energy.sef,
@@ -69,7 +70,9 @@ def plot_sef(
     )
     draw_arena(ax, place)
     draw_obstacles(ax, place, facecolor="none", edgecolor="white", linewidth=0.9, zorder=2.0)
-    draw_target(ax, place)
+    target = draw_target(ax, place)
+    if legend:
+        legend_below(ax, [target])
     if colorbar:
         clipped = bool(energy.sef.min() < energy.floor)
         colorbar_beside(ax, image, "SEF (no unit)", "min" if clipped else "neither")
@@ -78,7 +81,7 @@ def plot_sef(
 
 @styled
 def plot_sef_surface(
-    world: World | Record,
+    world: Source,
     *,
     ax: Axes | None = None,
     evaluation: StateEvaluation | None = None,

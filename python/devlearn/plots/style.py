@@ -87,8 +87,15 @@ def axes_of_height(ax: Axes | None, height: float) -> Axes:
     return new_figure(height, layout="constrained").add_subplot()
 
 
-def legend_below(ax: Axes, handles: Sequence[Any], columns: int | None = None) -> None:
-    """Outside the data, under the label of the x axis."""
+def in_rows(upper: Sequence[Any], lower: Sequence[Any]) -> list[Any]:
+    """Handles in the order in which a legend of ``len(upper)`` columns shows them as two rows."""
+    return [row[i] for i in range(len(upper)) for row in (upper, lower) if i < len(row)]
+
+
+def legend_below(
+    ax: Axes, handles: Sequence[Any], columns: int | None = None, length: float = 1.5
+) -> None:
+    """Outside the data, under the label of the x axis; its lines so many letters long."""
     below = ax.transAxes + ScaledTranslation(0, -28 / 72, ax.figure.dpi_scale_trans)
     ax.legend(
         handles=list(handles),
@@ -98,8 +105,8 @@ def legend_below(ax: Axes, handles: Sequence[Any], columns: int | None = None) -
         ncol=columns or len(handles),
         borderaxespad=0.0,
         handletextpad=0.5,
-        columnspacing=1.0,
-        handlelength=2.2 if columns else 1.5,
+        columnspacing=0.7,
+        handlelength=length,
     )
 
 
@@ -110,6 +117,13 @@ def colorbar_beside(ax: Axes, colours: Any, label: str, extend: str = "neither")
     bar.outline.set_linewidth(0.4)
 
 
+def say_nothing(ax: Axes, what: str) -> None:
+    """What is missing, in the middle of axes without data; their ticks would mean nothing."""
+    ax.text(0.5, 0.5, what, transform=ax.transAxes, ha="center", va="center", gid="nothing")
+    if not any(np.size(line.get_xydata()) for line in ax.get_lines()):
+        ax.set(xticks=[], yticks=[])
+
+
 def thousands(count: int) -> str:
     """A number with its thousands apart."""
     return f"{count:,}".replace(",", "\u2009")
@@ -118,7 +132,7 @@ def thousands(count: int) -> str:
 def whole_numbers(*axes: Axis) -> None:
     """Ticks at whole numbers only."""
     for axis in axes:
-        axis.set_major_locator(MaxNLocator(nbins=7, integer=True, min_n_ticks=2))
+        axis.set_major_locator(MaxNLocator(nbins=7, integer=True, min_n_ticks=1))
 
 
 def dark_cividis() -> ListedColormap:

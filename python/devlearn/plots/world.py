@@ -14,20 +14,20 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
 from .._core import Circle, Rectangle, Robot, RobotDef, World
-from ..analysis.fields import config_of, world_of
-from ..record import Record
+from ..analysis.fields import Source, config_of, world_of
 from .style import BLUE, COLUMN, GREEN, INK, OBSTACLE, VERMILLION, legend_below, new_figure, styled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+AT_START = "robot at start"
 LOWEST, HIGHEST = 0.3, 9.0  # axes of arenas that are far from square [inches]
 
 
 def arena_axes(
-    ax: Axes | None, world: World, *, bar: bool = False, legend: bool = False, title: bool = False
+    ax: Axes | None, world: World, *, bar: bool = False, legend: int = 0, title: int = 0
 ) -> Axes:
-    """Axes for a map of the world, in a figure as high as that needs."""
+    """Axes for a map of the world, in a figure as high as that and the rows of text need."""
     if ax is not None:
         return ax
     # Around the axes, in inches. Automatic layouts do not foresee what equal aspects leave over.
@@ -36,8 +36,8 @@ def arena_axes(
         for begin, size in zip(world.origin, (world.width, world.height))
     )
     left, right, bottom, top = 0.338 + y, 0.72 if bar else max(0.1, x / 2), 0.4, 0.08
-    bottom += 0.22 * legend
-    top += 0.2 * title
+    bottom += 0.22 * (legend > 0) + 0.15 * max(0, legend - 1)
+    top += 0.2 * (title > 0) + 0.14 * max(0, title - 1)
     width = COLUMN - left - right
     height = min(max(width * world.height / world.width, LOWEST), HIGHEST)
     total = bottom + height + top
@@ -123,8 +123,10 @@ def draw_target(ax: Axes, world: World) -> Line2D:
     return star
 
 
-def draw_robot(ax: Axes, radius: float, pose: Sequence[float], zorder: float = 5.0) -> None:
-    """The body with its heading at a pose (x, y [m], heading [degrees])."""
+def draw_robot(
+    ax: Axes, radius: float, pose: Sequence[float], label: str, zorder: float = 5.0
+) -> Line2D:
+    """The body with its heading at a pose (x, y [m], heading [degrees]); for legends."""
     x, y, heading = pose
     body = patches.Circle(
         (x, y), radius, facecolor=GREEN, edgecolor=INK, linewidth=0.7, zorder=zorder
@@ -141,10 +143,7 @@ def draw_robot(ax: Axes, radius: float, pose: Sequence[float], zorder: float = 5
         zorder=zorder + 0.1,
         gid="heading",
     )
-
-
-def _robot_handle(label: str = "robot") -> Line2D:
-    return Line2D(
+    (named,) = ax.plot(
         [],
         [],
         marker="o",
@@ -154,12 +153,19 @@ def _robot_handle(label: str = "robot") -> Line2D:
         markeredgewidth=0.7,
         linestyle="none",
         label=label,
+        gid="robot-named",
     )
+    return named
+
+
+def named_marks(ax: Axes) -> list[Line2D]:
+    """Robot and target, where they are drawn; for legends."""
+    return [line for line in ax.get_lines() if line.get_gid() in ("robot-named", "target")]
 
 
 @styled
 def plot_world(
-    world: World | Record,
+    world: Source,
     *,
     ax: Axes | None = None,
     robot: RobotDef | None = None,
@@ -169,9 +175,9 @@ def plot_world(
 ) -> Axes:
     """Draw a world with the robot, its sonars and the target: Fig. 2.
 
-    ``robot`` (a record's own, else the paper's) stands at ``pose`` (x, y [m], heading [degrees];
-    the world's start). With ``sonar`` each ray runs from the body's rim to what it meets, a dot
-    marking the echo; a ray that meets nothing ends, dashed, at the sonar's range.
+    ``robot`` (a record's or a trial's own, else the paper's) stands at ``pose`` (x, y [m], heading
+    [degrees]; the world's start). With ``sonar`` each ray runs from the body's rim to what it
+    meets, a dot marking the echo; a ray that meets nothing ends, dashed, at the sonar's range.
     """
     body = robot if robot is not None else config_of(world).robot
     place = world_of(world)
@@ -179,7 +185,7 @@ def plot_world(
     ax = arena_axes(ax, place, legend=legend)
     draw_arena(ax, place)
     draw_obstacles(ax, place)
-    handles = [_robot_handle()]
+    handles = [draw_robot(ax, body.radius, stand, AT_START if pose is None else "robot")]
     if sonar:
         echoes = Robot(place, body).sonar(stand)
         for i, (angle, echo) in enumerate(zip(body.sonar_angles(), echoes)):
@@ -204,7 +210,6 @@ def plot_world(
                 [], [], color=INK, linewidth=0.7, marker="o", markersize=2.6, label="sonar, echo"
             )
         )
-    draw_robot(ax, body.radius, stand)
     handles.append(draw_target(ax, place))
     if place.obstacles:
         handles.append(_obstacle_handle())

@@ -106,8 +106,50 @@ def test_the_grid_is_the_trials_where_none_is_given():
         np.testing.assert_array_equal(a, b)
 
 
-def test_a_situation_or_a_motion_that_is_not_the_trials_is_refused():
-    for situation, quantity in ((10**12, "situation"), (0, "motion")):
-        learner = devlearn.Learner(devlearn.LearnerConfig(motion_count=9), seed=0)
-        learner.update(situation, 8, 1.0)
-        refused(lambda learner=learner: preference_field(World(), learner), quantity)
+def test_situations_or_motions_that_are_not_the_trials_are_refused():
+    for count, situation, quantity in (
+        (5, 10**12, "situation"),
+        (9, 0, "learner.config.motion_count"),
+        (3, 0, "learner.config.motion_count"),
+    ):
+        learner = devlearn.Learner(devlearn.LearnerConfig(motion_count=count), seed=0)
+        learner.update(situation, count - 1, 1.0)
+        trial = devlearn.Trial(World())
+        refused(lambda given=(trial, learner): preference_field(*given), quantity)
+
+
+# Neither of a whole number of cells, nor as wide as high, nor of the paper's grid and motions.
+OTHER = devlearn.TrialConfig(
+    cell_size=0.4,
+    heading_bins=7,
+    robot=devlearn.RobotDef(steering_angles=[-90, 0, 90]),
+    learner=devlearn.LearnerConfig(motion_count=3),
+)
+OBLONG = World(5.1, 3.3, start=(1, 1, 0), target=(4, 2))
+
+
+def test_a_trial_and_its_record_know_the_grid_and_the_motions_that_were_learned_on():
+    trial = devlearn.Trial(OBLONG, OTHER, seed=0)
+    record = trial.run(800)
+    learner = trial.learner
+    expected = preference_field(OBLONG, learner, grid=trial.grid, config=OTHER)
+    assert len(expected.x) > 10
+    for field in (
+        preference_field(trial),
+        preference_field(trial, learner),
+        preference_field(record, learner),
+        preference_field(OBLONG, learner, config=OTHER),
+    ):
+        for a, b in zip(field, expected):
+            np.testing.assert_array_equal(a, b)
+
+
+def test_where_the_grid_or_the_learner_cannot_be_known_that_is_said():
+    trial = devlearn.Trial(World(), seed=0)
+    trial.run(10)
+    error = refused(lambda: preference_field(World(), trial.learner), "grid")
+    assert "World alone" in error.value
+    assert all(way in error.allowed for way in ("Trial", "Record", "grid=", "config="))
+    straying = devlearn.Trial(World(), seed=0, agent=devlearn.RandomAgent(1))
+    for source in (straying, straying.run(1), World()):
+        refused(lambda source=source: preference_field(source), "learner", "none")

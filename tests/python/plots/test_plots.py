@@ -14,7 +14,9 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from conftest import refused
 from devlearn import InvalidValue, Kind, plots
+from devlearn.plots.panels import panels, shared_legend
 from devlearn.plots.style import COLUMN
 from devlearn.record import STEP_COLUMNS
 from handmade import (
@@ -87,7 +89,7 @@ def every_plot(free, paths, trial):
         "counts": lambda ax: plots.plot_counts(free, ax=ax),
         "episodes": lambda ax: plots.plot_episodes(free, ax=ax),
         "rounds": lambda ax: plots.plot_rounds(paths, ax=ax, shortest=113, settled=4),
-        "preferences": lambda ax: plots.plot_preferences(trial.world, trial.learner, ax=ax),
+        "preferences": lambda ax: plots.plot_preferences(trial, ax=ax),
         "distribution": lambda ax: plots.plot_distribution({"a": [1, 2]}, ax=ax, ylabel="steps"),
     }
 
@@ -229,6 +231,102 @@ def test_maps_have_equal_aspect_and_metres(free, paths, trial):
         assert (ax.get_xlabel(), ax.get_ylabel()) == ("x [m]", "y [m]"), name
 
 
+def names(ax):
+    """What the legend says."""
+    legend = ax.get_legend()
+    return {text.get_text() for text in legend.get_texts()} if legend else set()
+
+
+def test_robot_and_target_are_named_wherever_they_are_drawn(free, paths, trial):
+    drawn = set()
+    for name, plot in every_plot(free, paths, trial).items():
+        ax = plot(None)
+        marks = {"robot": "robot at start", "target": "target"}
+        shown = {marks[gid] for gid in gids(ax) & set(marks)}
+        assert shown <= names(ax), name
+        drawn |= {(name, mark) for mark in shown}
+    assert {("by kind", "robot at start"), ("by time", "target"), ("sef", "target")} < drawn
+    ax = plots.plot_world(trial.world, pose=(1.0, 2.0, 0.0))
+    assert "robot" in names(ax) and "robot at start" not in names(ax)
+
+
+def test_the_legend_of_several_panels_names_robot_and_target_once(paths):
+    figure, axes = panels(1, 2)
+    for entry, ax in enumerate(axes):
+        plots.plot_trajectory(paths, ax=ax, entry=entry, legend=False)
+    shared_legend(figure, axes)
+    (legend,) = figure.legends
+    told = [text.get_text() for text in legend.get_texts()]
+    assert told.count("robot at start") == told.count("target") == 1
+
+
+NO_ROUNDS = hand_made([NO_CHANGE]).part(slice(0, 0))
+NO_STEPS = devlearn.Trial(devlearn.World(), seed=0).free_learning(0)
+ROUNDS_ONLY = devlearn.Trial(devlearn.World(), seed=0).path_learning(2, 9, rounds_only=True)
+OF_ROUNDS = {
+    "by kind": plots.plot_trajectory,
+    "by time": lambda record: plots.plot_trajectory(record, by="time"),
+    "path": lambda record: plots.plot_trajectory(record, entry=-1, by=None),
+    "counts": plots.plot_counts,
+    "counts of a window": lambda record: plots.plot_counts(record, steps=(0, 30)),
+    "episodes": plots.plot_episodes,
+    "rounds": plots.plot_rounds,
+}
+OF_A_WORLD = {
+    "world": plots.plot_world,
+    "sef": lambda record: plots.plot_sef(record, points=11),
+    "surface": lambda record: plots.plot_sef_surface(record, points=11),
+    "preferences": lambda record: plots.plot_preferences(record, devlearn.Learner()),
+}
+
+
+@pytest.mark.parametrize("plot", OF_ROUNDS.values(), ids=OF_ROUNDS)
+def test_a_record_of_no_rounds_is_refused_as_that(plot):
+    refused(lambda: plot(NO_ROUNDS), "record", "no rounds")
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("plot", OF_ROUNDS.values(), ids=OF_ROUNDS)
+def test_a_round_of_no_steps_is_drawn_empty(plot):
+    ax = plot(NO_STEPS)
+    assert "0 steps" in ax.get_title() or "nothing" in gids(ax) or ax.get_xlabel() == "round"
+    assert_nothing_is_cut_off(ax.figure, ax.get_title())
+    # No ticks that mean nothing, such as step -0.04.
+    for axis in (ax.xaxis, ax.yaxis):
+        assert all(tick == round(tick) for tick in axis.get_majorticklocs())
+
+
+@pytest.mark.parametrize("plot", OF_ROUNDS.values(), ids=OF_ROUNDS)
+def test_a_record_without_steps_serves_for_its_rounds_alone(plot):
+    if plot is plots.plot_rounds:
+        np.testing.assert_array_equal(xy(plot(ROUNDS_ONLY), "failed"), [(1, 9), (2, 9)])
+    else:
+        refused(lambda: plot(ROUNDS_ONLY), "record", "rounds only")
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("record", [NO_ROUNDS, NO_STEPS, ROUNDS_ONLY])
+@pytest.mark.parametrize("plot", OF_A_WORLD.values(), ids=OF_A_WORLD)
+def test_what_is_drawn_of_a_records_world_needs_no_steps(plot, record):
+    plot(record).figure.canvas.draw()
+
+
+@pytest.mark.parametrize("plot", [OF_ROUNDS["path"], *OF_A_WORLD.values()])
+def test_a_record_that_does_not_tell_where_it_comes_from_is_refused_as_that(plot):
+    columns = {name: NO_STEPS[name] for name in NO_STEPS}
+    refused(lambda: plot(devlearn.Record(columns, {})), "record.provenance")
+
+
+@pytest.mark.parametrize("plot", [plots.plot_trajectory, plots.plot_counts, plots.plot_episodes])
+def test_an_entry_that_is_none_is_refused_alike_by_all(plot, paths):
+    for entry in (99, -99):
+        error = refused(lambda entry=entry: plot(paths, entry=entry), "round entry", str(entry))
+        assert error.allowed == "in [-5, 4]"
+    for entry in (1.5, "1", None):
+        with pytest.raises(devlearn.WrongType, match="round entry: got .*a whole number"):
+            plot(paths, entry=entry)
+
+
 def test_devlearn_itself_does_not_need_matplotlib(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     monkeypatch.delitem(sys.modules, "devlearn.plots")
@@ -301,7 +399,7 @@ def test_a_world_elsewhere_is_drawn_where_it_lies(ax):
     assert ax.get_ylim() == pytest.approx((-128.1, -122.9))
     trial = devlearn.Trial(world, seed=1)
     trial.free_learning(500)
-    field = plots.preference_field(world, trial.learner)
+    field = plots.preference_field(trial)
     assert (field.x > 256).all()
     assert (field.y < -123).all()
 
@@ -381,7 +479,8 @@ def test_the_legend_gives_the_number_of_steps_of_each_kind(free, ax):
     plots.plot_trajectory(free, ax=ax)
     shown = {text.get_text().replace("\u2009", "") for text in ax.get_legend().get_texts()}
     counts = {name: np.count_nonzero(free.kind == kind) for name, kind in Kind.__members__.items()}
-    assert shown == {f"{name.lower()} ({count})" for name, count in counts.items() if count}
+    kinds = {f"{name.lower()} ({count})" for name, count in counts.items() if count}
+    assert shown == kinds | {"robot at start", "target"}
 
 
 def test_kinds_differ_in_more_than_colour(free, ax):
@@ -399,10 +498,45 @@ def test_time_colours_each_step_by_its_number(paths, ax):
 
 def test_the_title_tells_round_steps_and_failure():
     steps = [NO_CHANGE] * 5
-    record = hand_made(steps, rounds=[(7, 2, True), (8, 3, False)])
-    assert plots.plot_trajectory(record, entry=0).get_title() == "round 7: 2 steps"
-    assert plots.plot_trajectory(record, entry=1).get_title() == "round 8: 3 steps, not arrived"
+    record = hand_made(steps, rounds=[(1, 2, True), (2, 3, False)])
+    assert plots.plot_trajectory(record).get_title() == "round 1 of 2: 2 steps"
+    title = "round 2 of 2: 3 steps, not arrived"
+    assert plots.plot_trajectory(record, entry=1).get_title() == title
+    assert plots.plot_trajectory(record, entry=-1).get_title() == title
     assert plots.plot_trajectory(record, entry=-1, title=False).get_title() == ""
+
+
+def test_rounds_of_path_learning_are_counted_as_they_were_asked_for(paths):
+    count = len(paths.rounds)  # as asked for, after one round of free learning
+    assert paths.rounds["round"].tolist() == list(range(2, count + 2))
+    for entry in (0, 2, -1, -count):
+        number = range(1, count + 1)[entry]
+        told = f"round {number} of {count} ({number + 1} of the trial)"
+        title = plots.plot_trajectory(paths, entry=entry).get_title()
+        assert title.startswith(told + "\n")
+        for plot in (plots.plot_counts, plots.plot_episodes):
+            assert plot(paths, entry=entry).get_xlabel() == f"step of {told}"
+
+
+def test_the_only_round_of_a_record_has_its_number_in_the_trial(trial):
+    second = devlearn.Trial(trial.world, seed=0)
+    second.free_learning(10)
+    record = second.free_learning(10)
+    assert plots.plot_trajectory(record).get_title() == "round 2: 10 steps, not arrived"
+    assert plots.plot_counts(record).get_xlabel() == "step"
+    assert plots.plot_rounds(record).get_xlabel() == "round"
+
+
+def test_the_longest_title_and_legend_are_not_cut_off():
+    of_kinds = [EFFECTIVE, NO_CHANGE, RETRY, (Kind.UNSTATED, 0, 0)]
+    for kinds, times in ((1, 10_000), (2, 10_000), (3, 10_000), (4, 10)):
+        steps = of_kinds[:kinds] * times
+        rounds = [(1000, 1, True), (1001, len(steps), False)]
+        ax = plots.plot_trajectory(hand_made([NO_CHANGE, *steps], rounds=rounds), entry=-1)
+        told = ax.get_title().replace("\u2009", ",")
+        assert told == f"round 2 of 2 (1001 of the trial)\n{len(steps):,} steps, not arrived"
+        assert len(names(ax)) == kinds + 2
+        assert_nothing_is_cut_off(ax.figure, told)
 
 
 def test_a_path_can_be_added_to_what_is_drawn(paths, ax):
@@ -410,6 +544,13 @@ def test_a_path_can_be_added_to_what_is_drawn(paths, ax):
     lines = len(ax.lines)
     plots.plot_trajectory(paths, ax=ax, entry=1, by=None, world=False)
     assert len(ax.lines) == lines + 1
+    plots.plot_trajectory(paths, ax=ax, entry=2, world=False)
+    assert {"robot at start", "target"} < names(ax)
+
+
+def test_a_path_with_a_name_is_in_the_legend_under_it(paths, ax):
+    plots.plot_trajectory(paths, ax=ax, by=None, label="seed 0")
+    assert names(ax) == {"seed 0", "robot at start", "target"}
 
 
 def test_a_round_that_is_not_there_is_refused(paths, ax):
@@ -516,8 +657,8 @@ def test_rounds_are_the_records_and_failed_ones_are_crosses(ax):
     assert set(by_gid(ax, "shortest").get_ydata()) == {6}
     assert set(by_gid(ax, "settled").get_xdata()) == {5}
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert "settled from round 5: 8" in labels and "shortest possible: 6" in labels
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("round", "steps of the round")
+    assert "settled from round 5 of the trial: 8" in labels and "shortest possible: 6" in labels
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("round of the trial", "steps of the round")
 
 
 def test_a_span_of_more_than_ten_is_drawn_on_a_logarithmic_axis():
@@ -525,6 +666,39 @@ def test_a_span_of_more_than_ten_is_drawn_on_a_logarithmic_axis():
     assert plots.plot_rounds(record).get_yscale() == "linear"
     assert plots.plot_rounds(record, shortest=1).get_yscale() == "log"
     assert plots.plot_rounds(record, log=True).get_yscale() == "log"
+
+
+@pytest.mark.filterwarnings("error")
+def test_rounds_that_begin_later_are_also_counted_from_one(paths, ax):
+    count = len(paths.rounds)
+    for _ in range(2):  # drawn over itself there is one such axis still
+        plots.plot_rounds(paths, ax=ax, settled=4)
+        (above,) = ax.child_axes
+        ax.figure.canvas.draw()
+    assert (ax.get_xlabel(), above.get_xlabel()) == (
+        "round of the trial",
+        f"round of these {count}",
+    )
+    first, last = ax.get_xlim()
+    assert 1 < first < 2 and above.get_xlim() == pytest.approx((first - 1, last - 1))
+    assert [tick for tick in above.get_xticks() if tick > 0][:2] == [1, 2]
+    assert any(name.startswith("settled from round 4 of the trial: ") for name in names(ax))
+    assert_nothing_is_cut_off(plots.plot_rounds(paths, settled=4).figure, "rounds")
+
+
+@pytest.mark.parametrize("numbers", [(1, 2, 3), (5,), (2, 3, 7)])
+def test_no_second_axis_counts_rounds_where_it_would_say_nothing_or_wrong(numbers, ax):
+    record = hand_made([NO_CHANGE] * len(numbers), rounds=[(n, 1, True) for n in numbers])
+    plots.plot_rounds(record, ax=ax)
+    assert ax.child_axes == []
+    np.testing.assert_array_equal(xy(ax, "arrived")[:, 0], numbers)
+    assert all(tick == round(tick) >= 1 for tick in ax.get_xticks() if tick > ax.get_xlim()[0])
+
+
+def test_a_settled_round_that_the_record_does_not_hold_is_refused():
+    record = hand_made([NO_CHANGE] * 2, rounds=[(3, 1, True), (4, 1, True)])
+    error = refused(lambda: plots.plot_rounds(record, settled=1), "settled", "1")
+    assert error.allowed.endswith("3 to 4")
 
 
 # --- preferences ----------------------------------------------------------------------------------
@@ -540,25 +714,66 @@ def test_ineffective_mappings_have_no_arrow(ax):
 
 
 def test_the_arrows_are_those_of_the_field_and_stay_in_their_cells(trial, free, ax):
-    field = plots.preference_field(trial.world, trial.learner)
+    field = plots.preference_field(trial)
     plots.plot_preferences(free, trial.learner, ax=ax)
-    arrows, knows = by_gid(ax, "preferences"), field.times > 0
+    room = trial.world.clearance(field.x, field.y, walls_count=True)
+    arrows, shown = by_gid(ax, "preferences"), (field.times > 0) & (room >= 0.1)
     drawn = np.column_stack([arrows.U, arrows.V])
-    expected = np.column_stack([field.u, field.v])[knows]
-    np.testing.assert_allclose(drawn, 0.9 * 0.25 * expected)
-    np.testing.assert_array_equal(arrows.get_array(), field.times[knows])
+    expected = np.column_stack([field.u, field.v])[shown]
+    length = np.minimum(0.9 * 0.25, 2 * room[shown])
+    np.testing.assert_allclose(drawn, length[:, None] * expected)
+    np.testing.assert_array_equal(arrows.get_array(), field.times[shown])
     assert np.hypot(*drawn.T).max() <= 0.25
+
+
+@pytest.mark.parametrize("name", ["paper", "office"])
+@pytest.mark.parametrize("cell_size", [0.1, 0.25, 0.55])
+def test_nothing_is_drawn_where_the_robot_cannot_be_and_no_arrow_inside_obstacles(
+    name, cell_size, ax
+):
+    config = devlearn.TrialConfig(cell_size=cell_size, heading_bins=1)
+    trial = devlearn.Trial(devlearn.World.load(name), config, seed=0)
+    world, grid, learner = trial.world, trial.grid, trial.learner
+    for situation in range(grid.count):  # as if it had been everywhere, and found half of it good
+        learner.update(situation, situation % 5, (situation // 5) % 2 or -1)
+    plots.plot_preferences(world, learner, config=config, ax=ax)
+    arrows = by_gid(ax, "preferences")
+    at, along = np.asarray(arrows.get_offsets()), np.column_stack([arrows.U, arrows.V])
+    dots = xy(ax, "nothing-effective")
+    for points in (at, dots):
+        assert world.clearance(*points.T, walls_count=True).min() >= config.robot.radius - 1e-6
+    for part in np.linspace(-0.49, 0.49, 11):
+        assert world.clearance(*(at + part * along).T, walls_count=True).min() > 0
+    # And of all others none is left out.
+    centres = np.array([grid.centre(situation)[:2] for situation in range(grid.count)])
+    room = world.clearance(*centres.T, walls_count=True)
+    assert len(at) + len(dots) == np.count_nonzero(room > config.robot.radius - 1e-6)
+    assert len(at) + len(dots) < grid.count
+
+
+def test_the_arrows_stand_on_the_grid_that_was_learned_on(ax):
+    config = devlearn.TrialConfig(cell_size=0.5, heading_bins=8)
+    trial = devlearn.Trial(devlearn.World(), config, seed=0)
+    record = trial.free_learning(500)
+    expected = {trial.grid.centre(situation)[:2] for situation in trial.learner.situations()}
+    for source in (trial, record):
+        ax = plots.plot_preferences(source, trial.learner)
+        drawn = [by_gid(ax, "preferences").get_offsets(), *(
+            [xy(ax, "nothing-effective")] if "nothing-effective" in gids(ax) else []
+        )]  # fmt: skip
+        assert {tuple(point) for points in drawn for point in np.asarray(points)} == expected
+    refused(lambda: plots.plot_preferences(trial.world, trial.learner), "grid")
 
 
 def test_a_learner_of_other_situations_is_refused(ax):
     learner = devlearn.Learner(seed=0)
     learner.update(10**12, 0, 1.0)
     with pytest.raises(InvalidValue, match="situation"):
-        plots.plot_preferences(devlearn.World(), learner, ax=ax)
+        plots.plot_preferences(devlearn.World(), learner, config=devlearn.TrialConfig(), ax=ax)
 
 
 def test_a_learner_without_experience_is_drawn_as_an_empty_field(ax):
-    plots.plot_preferences(devlearn.World(), devlearn.Learner(seed=0), ax=ax)
+    plots.plot_preferences(devlearn.Trial(devlearn.World(), seed=0), ax=ax)
     assert len(by_gid(ax, "preferences").get_offsets()) == 0
     ax.figure.canvas.draw()
 
