@@ -105,7 +105,9 @@ void bind_situation(py::module_& m) {
           py::arg("x"), py::arg("y"), py::arg("heading"),
           "The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers "
           "give an int; arrays broadcast and give an int64 array. Of a robot that has radians: "
-          "situation(*Pose.from_radians(x, y, yaw)). Raises InvalidValue.")
+          "situation(Pose.from_radians(x, y, yaw)). Raises InvalidValue.")
+      .def("situation", py::overload_cast<const Pose&>(&SituationGrid::situation, py::const_),
+           py::arg("pose"), "The same of a Pose.")
       .def("situation",
            py::vectorize([](const SituationGrid* self, double x, double y, double heading) {
              take_a_breath();

@@ -134,7 +134,12 @@ class SituationGrid:
         heading: typing.SupportsFloat | typing.SupportsIndex,
     ) -> int:
         """
-        The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers give an int; arrays broadcast and give an int64 array. Of a robot that has radians: situation(*Pose.from_radians(x, y, yaw)). Raises InvalidValue.
+        The situation id of a pose: x, y in metres inside the grid, heading in degrees. Numbers give an int; arrays broadcast and give an int64 array. Of a robot that has radians: situation(Pose.from_radians(x, y, yaw)). Raises InvalidValue.
+        """
+    @typing.overload
+    def situation(self, pose: collections.abc.Sequence[float]) -> int:
+        """
+        The same of a Pose.
         """
     @typing.overload
     def situation(
@@ -214,6 +219,14 @@ class StateEvaluation:
     def from_dict(fields: dict[str, typing.Any]) -> StateEvaluation:
         """
         From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    @staticmethod
+    def scaled(
+        arena: typing.SupportsFloat | typing.SupportsIndex,
+        radius: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> StateEvaluation:
+        """
+        The paper's shape for another arena [m, its greater side, in [0.01, 1e6]] and another radius of the robot [m, in [1e-5, arena / 2]]: SEF is the paper's at the same share of the arena from the target and the same number of radii from an obstacle. The paper's 5 m and 0.1 m give the defaults; else a2 = 0.3 (5 m / arena)**2 and a5 = 12 (0.1 m / radius). Raises InvalidValue.
         """
     @typing.overload
     def __call__(

@@ -74,3 +74,15 @@ def test_more_instructions_are_flagged_however_noisy_the_times(bench):
     before["instructions"] = {"learner/replay": 100.0, "trial/closed_loop": 100.0}
     now["instructions"] = {"learner/replay": 101.0, "trial/closed_loop": 100.0}
     assert list(run.slower(now, before)) == ["learner/replay: 1.010 x the instructions"]
+
+
+def test_a_small_robot_finds_its_way_with_the_evaluation_scaled_and_not_with_the_defaults(
+    monkeypatch,
+):
+    monkeypatch.syspath_prepend(str(BENCH))
+    scaled = importlib.import_module("scaled_evaluation")
+    for seed in range(1, 4):
+        arrives, _, frozen = scaled.one(scaled.SCALED, seed)
+        assert arrives
+        assert frozen
+        assert not scaled.one(scaled.DEFAULT, seed)[0]

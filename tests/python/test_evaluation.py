@@ -36,6 +36,17 @@ def test_eq_6(evaluation, goal, obstacle):
     assert abs(e(goal, obstacle) - expected) <= 1e-12 * scale + 1e-300
 
 
+def test_scaled_is_the_papers_shape_for_another_arena_and_another_robot():
+    assert StateEvaluation.scaled(5, 0.1) == StateEvaluation()
+    desk, paper = StateEvaluation.scaled(arena=1.2, radius=0.037), StateEvaluation()
+    share, radii = np.linspace(0, 1.4, 8)[:, None], np.linspace(1, 10, 9)
+    np.testing.assert_allclose(
+        desk(share * 1.2, radii * 0.037), paper(share * 5, radii * 0.1), 1e-12
+    )
+    refused(lambda: StateEvaluation.scaled(0, 0.1), "StateEvaluation.scaled.arena")
+    refused(lambda: StateEvaluation.scaled(1.2, 0.7), "StateEvaluation.scaled.radius")
+
+
 @given(evaluations, st.floats(0, 1e6), st.floats(0, allow_infinity=True))
 def test_sef_is_always_a_number(evaluation, goal, obstacle):
     assert np.isfinite(evaluation(goal, obstacle))

@@ -109,7 +109,7 @@ def test_a_grid_out_of_range_is_refused_by_name(name, bad):
 def test_the_trials_grid_agrees_with_one_made_by_hand():
     trial = devlearn.Trial(devlearn.World.load("paper"))
     pose = trial.pose
-    assert trial.grid.situation(*pose) == SituationGrid().situation(*pose)
+    assert trial.grid.situation(pose) == SituationGrid().situation(*pose)
 
 
 def test_arrays_that_do_not_broadcast_are_refused():

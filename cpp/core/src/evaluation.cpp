@@ -23,6 +23,17 @@ double sef_at(const StateEvaluation& a, double goal_distance, double obstacle_di
 
 }  // namespace
 
+StateEvaluation StateEvaluation::scaled(double arena, double radius) {
+  constexpr double kArena = 5.0;   // the paper's [m]
+  constexpr double kRadius = 0.1;  // the paper's robot [m]
+  require_in("StateEvaluation.scaled.arena", arena, 0.01, 1e6, "m");
+  require_in("StateEvaluation.scaled.radius", radius, 1e-5, arena / 2.0, "m");
+  StateEvaluation scaled;
+  scaled.a2 *= (kArena / arena) * (kArena / arena);
+  scaled.a5 *= kRadius / radius;
+  return scaled;
+}
+
 double StateEvaluation::operator()(double goal_distance, double obstacle_distance) const {
   require_distances(goal_distance, obstacle_distance);
   return sef_at(*this, goal_distance, obstacle_distance);

@@ -72,6 +72,29 @@ TEST_CASE("Eq. 6: SEF is finite at every distance and with every parameter that 
   }
 }
 
+TEST_CASE("a scaled SEF is the paper's at the same shares of the arena and of the radius") {
+  CHECK(StateEvaluation::scaled(5.0, 0.1) == StateEvaluation{});
+  const StateEvaluation paper, desk = StateEvaluation::scaled(1.2, 0.037);
+  for (const double share : {0.0, 0.1, 0.5, 1.0, 1.4}) {
+    for (const double radii : {1.0, 1.5, 4.0, 10.0}) {
+      CHECK(desk(share * 1.2, radii * 0.037) ==
+            doctest::Approx(paper(share * 5.0, radii * 0.1)).epsilon(1e-12));
+    }
+  }
+  // What can be asked for can be had.
+  for (const double arena : {0.01, 1.0, 1e6}) {
+    for (const double radius : {1e-5, arena / 2.0}) {
+      CHECK_NOTHROW(StateEvaluation::scaled(arena, radius).validate());
+    }
+  }
+  check_refused([] { StateEvaluation::scaled(0.009, 0.001); }, "StateEvaluation.scaled.arena",
+                "0.009");
+  check_refused([] { StateEvaluation::scaled(kNaN, 0.1); }, "StateEvaluation.scaled.arena", "nan");
+  check_refused([] { StateEvaluation::scaled(1.2, 0.61); }, "StateEvaluation.scaled.radius",
+                "0.61");
+  check_refused([] { StateEvaluation::scaled(1.2, 0.0); }, "StateEvaluation.scaled.radius", "0");
+}
+
 TEST_CASE("SEF refuses distances that are none") {
   const StateEvaluation sef;
   check_refused([&] { sef(-1e-9, 1.0); }, "goal_distance", "-1e-09");
