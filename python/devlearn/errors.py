@@ -60,14 +60,23 @@ class FileError(InvalidValue, OSError):
 
 
 class MissingExtra(ImportError):
-    """A part of devlearn needs a package of an extra that is not installed; it says which.
+    """A part of devlearn needs a package of an extra that is not installed; it says how to get it.
 
     Parameters: what needs it, the package, the extra of ``pyproject.toml`` that brings it.
     """
 
     def __init__(self, what: str, package: str, extra: str) -> None:
+        import shlex
+        import sys
+        from importlib.metadata import requires  # which takes 25 ms
+
+        needed = [
+            requirement.split(";")[0].strip()
+            for requirement in requires("devlearn") or ()
+            if requirement.replace("'", '"').endswith(f'extra == "{extra}"')
+        ]
+        command = shlex.join([sys.executable, "-m", "pip", "install", *(needed or [package])])
         super().__init__(
-            f"{what} needs {package}, which is not installed: pip install {package}, or "
-            f"pip install '.[{extra}]' in devlearn's sources",
+            f"{what} needs {package}, which is not installed; to have it: {command}",
             name=package,
         )
