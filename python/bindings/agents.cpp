@@ -1,6 +1,7 @@
 #include "agents.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -216,11 +217,29 @@ class PythonAgent final : public Agent {
   py::object agent_;
 };
 
+// A trial calls what C++ has of T: methods that a class derived from it redefines would go unheard.
+template <class T>
+void require_own_methods(const py::object& agent, std::initializer_list<const char*> methods) {
+  const py::object derived = py::type::of(agent), base = py::type::of<T>();
+  for (const char* method : methods) {
+    if (py::hasattr(base, method) && !derived.attr(method).is(base.attr(method))) {
+      throw InvalidValue("agent", shown(agent),
+                         "one whose " + std::string(method) +
+                             " is not redefined, which a trial would not call; or an object of its "
+                             "own with choose(observation) and observe(outcome)");
+    }
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<Agent> as_agent(const py::object& agent) {
-  if (py::isinstance<RandomAgent>(agent)) return agent.cast<std::shared_ptr<RandomAgent>>();
+  if (py::isinstance<RandomAgent>(agent)) {
+    require_own_methods<RandomAgent>(agent, {"choose", "observe"});
+    return agent.cast<std::shared_ptr<RandomAgent>>();
+  }
   if (py::isinstance<Learner>(agent) && !py::hasattr(agent, "observe")) {
+    require_own_methods<Learner>(agent, {"choose", "learn"});
     return std::make_shared<LearnerAgent>(agent.cast<std::shared_ptr<Learner>>());
   }
   return std::make_shared<PythonAgent>(agent);

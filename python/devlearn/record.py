@@ -344,7 +344,7 @@ class Record:  # noqa: D101 - made of the columns
         """
         try:
             import pandas
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             raise MissingExtra("Record.to_pandas", "pandas", "experiments") from error
         frame = pandas.DataFrame(self._by_step())
         for name, members in (("kind", _core.Kind), ("event", _core.Event)):

@@ -744,3 +744,19 @@ def test_an_agent_sees_what_is_allowed_and_is_refused_what_is_not():
     assert seen[-1].allowed.dtype == bool
     assert not seen[-1].allowed[2]
     assert list(seen[-1].allowed) == list(devlearn.Robot(world, robot).allowed(pose))
+
+
+@pytest.mark.parametrize("base", [Learner, RandomAgent])
+def test_a_learner_whose_choice_is_redefined_is_refused_as_it_would_not_be_asked(base):
+    class Own(base):
+        def choose(self, *_):
+            return 1
+
+    world = World.load("empty")
+    with pytest.raises(InvalidValue, match=r"agent: got .*; expected one whose choose is not"):
+        Trial(world, agent=Own())
+
+    class Named(base):
+        """Adds nothing."""
+
+    assert len(Trial(world, agent=Named()).free_learning(10)) == 10

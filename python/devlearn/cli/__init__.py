@@ -28,16 +28,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         except (InvalidValue, MissingExtra, OSError) as error:
             console.warn(f"devlearn: {error}")
             return 1
-    except KeyboardInterrupt as stop:
+    except (KeyboardInterrupt, ImportError) as error:
+        stop = _stop_behind(error)
+        if stop is None:
+            raise
         console.warn("devlearn: stopped")
         return 128 + (stop.args[0] if stop.args else signal.SIGINT)
 
 
-def command() -> int:
-    """``devlearn`` as a program: like main, and then there is nothing left to stop."""
-    code = main()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    return code
+def _stop_behind(error: BaseException | None) -> KeyboardInterrupt | None:
+    """Ctrl-C while a compiled module was being imported comes as an ImportError."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__
+    return error
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -200,7 +200,7 @@ def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
         for part in outer:
             place = place.get(part) if isinstance(place, dict) else None
             owner = getattr(owner, part, None)
-        if not equals or not isinstance(place, dict) or last not in place:
+        if not equals or not isinstance(place, dict) or isinstance(place.get(last, {}), dict):
             known = ", ".join(_names(config.to_dict()))
             raise InvalidValue("--set", repr(change), f"FIELD=VALUE, where FIELD is one of {known}")
         field = owner.fields()[last]

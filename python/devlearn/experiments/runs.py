@@ -21,7 +21,7 @@ from ..errors import FileError, MissingExtra
 
 try:
     from tqdm import tqdm
-except ImportError as error:
+except ModuleNotFoundError as error:
     raise MissingExtra("devlearn.experiments.runs", "tqdm", "experiments") from error
 
 Job = Mapping[str, Any]

@@ -15,7 +15,7 @@ from .figures import Drawn
 
 try:
     import jinja2
-except ImportError as error:
+except ModuleNotFoundError as error:
     raise MissingExtra("devlearn.paper.report", "jinja2", "experiments") from error
 
 

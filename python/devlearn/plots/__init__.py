@@ -23,7 +23,7 @@ from ..errors import MissingExtra
 
 try:
     import matplotlib as _matplotlib  # noqa: F401
-except ImportError as error:
+except ModuleNotFoundError as error:
     raise MissingExtra("devlearn.plots", "matplotlib", "plots") from error
 
 from ..analysis import (

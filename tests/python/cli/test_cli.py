@@ -32,7 +32,7 @@ def command(*arguments, **environment):
         capture_output=True,
         text=True,
         timeout=120,
-        env=os.environ | environment,
+        env=os.environ | {name: str(value) for name, value in environment.items()},
     )
 
 
@@ -57,6 +57,27 @@ def test_the_version_is_the_librarys():
     done = command("--version")
     assert done.returncode == 0
     assert done.stdout == f"devlearn {devlearn.__version__} ({_core.commit})\n"
+
+
+@pytest.mark.parametrize(
+    "module", ["devlearn.cli", "argparse", "devlearn._core", "numpy", "matplotlib"]
+)
+def test_ctrl_c_during_any_import_ends_it_without_a_traceback(tmp_path, module):
+    (tmp_path / "sitecustomize.py").write_text(
+        "import os, signal, sys\n"
+        "class Finder:\n"
+        "    def find_spec(self, name, path=None, target=None):\n"
+        f"        if name == {module!r}:\n"
+        "            sys.meta_path.remove(self)\n"
+        "            os.kill(os.getpid(), signal.SIGINT)\n"
+        "sys.meta_path.insert(0, Finder())\n"
+    )
+    out = tmp_path / "out"
+    done = command(
+        "run", "empty", "--steps", 5, "--rounds", 1, "--output", out, PYTHONPATH=tmp_path
+    )
+    assert done.returncode in (130, -signal.SIGINT)
+    assert done.stderr in ("", "devlearn: stopped\n")
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["reproduce", "--help"]])
@@ -326,7 +347,8 @@ def test_a_reader_who_leaves_is_no_error_of_ours(tmp_path):
         (["--set", "evaluation.a1=-Infinity"], "StateEvaluation.a1: got -inf; expected"),
         (["--set", "learner.sigma=many"], "--set: got 'learner.sigma=many'; expected in (0, 1)"),
         (["--set", "learner.sigma="], "--set: got 'learner.sigma='; expected in (0, 1)"),
-        (["--set", "learner=3"], "--set: got 'learner=3'; expected a LearnerConfig"),
+        (["--set", "learner=3"], "--set: got 'learner=3'; expected FIELD=VALUE"),
+        (["--set", 'learner={"eta": 0.1, "eta": 0.2}'], "FIELD is one of learner.motion_count"),
         (["--set", "clearance_source=3"], "expected 'geometric' or 'sonar'"),
         (["--set", "clearance_source=echo"], "got 'echo'; expected 'geometric' or 'sonar'"),
         (["--set", "robot.sonar_count=2.5"], "expected a whole number in [0, 720]"),
