@@ -13,6 +13,7 @@ from devlearn import (
     Choice,
     Development,
     Event,
+    InvalidValue,
     Kind,
     Learner,
     LearnerConfig,

@@ -32,9 +32,9 @@ struct StateEvaluation {
         field("a5", &E::a5, "a_5", closed(0.0, 1e6, "1/m"), "how fast the push decays"));
   }
 
-  /// The paper's shape for another arena [m, its greater side, in [0.01, 1e6]] and another radius of
-  /// the robot [m, in [1e-5, arena / 2]]: SEF is the paper's at the same share of the arena from the
-  /// target and the same number of radii from an obstacle. The paper's 5 m and 0.1 m give the
+  /// The paper's shape for another arena [m, its greater side, in [0.01, 1e6]] and another radius
+  /// of the robot [m, in [1e-5, arena / 2]]: SEF is the paper's at the same share of the arena from
+  /// the target and the same number of radii from an obstacle. The paper's 5 m and 0.1 m give the
   /// defaults; else a2 = 0.3 (5 m / arena)^2 and a5 = 12 (0.1 m / radius). Throws InvalidValue.
   static StateEvaluation scaled(double arena, double radius);
 
