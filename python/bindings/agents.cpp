@@ -222,7 +222,7 @@ template <class T>
 void require_own_methods(const py::object& agent, std::initializer_list<const char*> methods) {
   const py::object derived = py::type::of(agent), base = py::type::of<T>();
   for (const char* method : methods) {
-    if (py::hasattr(base, method) && !derived.attr(method).is(base.attr(method))) {
+    if (!py::getattr(derived, method, py::none()).is(py::getattr(base, method, py::none()))) {
       throw InvalidValue("agent", shown(agent),
                          "one whose " + std::string(method) +
                              " is not redefined, which a trial would not call; or an object of its "
