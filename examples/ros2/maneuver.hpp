@@ -19,7 +19,7 @@ enum class Outcome {
   kUnderWay,
   kDone,
   kTimedOut,   // it tried, and the world did not let it
-  kPreempted,  // someone else took over
+  kPreempted,  // someone else took over, or set the clock back
 };
 
 class Maneuver {
@@ -40,8 +40,11 @@ class Maneuver {
   // What to drive until the next tick; nothing once it is over.
   Command tick(const devlearn::Pose& here, double now) {
     if (outcome_ != Outcome::kUnderWay) return {};
-    // A clock that went backwards tells nothing any more.
-    if (!(now >= began_ && now - began_ <= limits_.patience)) {
+    if (!(now >= began_)) {  // the clock was set back: nobody knows how long it took
+      outcome_ = Outcome::kPreempted;
+      return {};
+    }
+    if (now - began_ > limits_.patience) {
       outcome_ = Outcome::kTimedOut;
       return {};
     }

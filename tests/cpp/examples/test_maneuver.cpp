@@ -64,11 +64,12 @@ TEST_CASE("a motion that gets nowhere times out and stops") {
   }
 }
 
-TEST_CASE("a clock that goes backwards or says nothing ends a motion") {
+TEST_CASE("a clock that goes backwards or says nothing ends a motion and teaches nothing") {
   for (const double now : {4.9, std::numeric_limits<double>::quiet_NaN()}) {
     Maneuver maneuver({}, 0.0, 0.25, 5.0, {});
     CHECK(stands(maneuver.tick({}, now)));
-    CHECK(maneuver.outcome() == Outcome::kTimedOut);
+    CHECK(maneuver.outcome() == Outcome::kPreempted);
+    CHECK_FALSE(lesson(maneuver.outcome(), 10.0, 10.5));
   }
 }
 
