@@ -102,9 +102,11 @@ class EventObject : public py::object {
   bool is_set() const { return py::bool_(attr("is_set")()); }
 };
 
-/// A path from Python as the system takes it: text, bytes or os.PathLike.
+/// A path from Python as the system takes it: text, bytes or os.PathLike. Raises
+/// WrongType.
 inline std::string file_path(const py::object& path) {
-  std::string text = py::bytes(py::module_::import("os").attr("fsencode")(path));
+  const py::object known = py::module_::import("devlearn._calls").attr("path_text")(path);
+  std::string text = py::bytes(py::module_::import("os").attr("fsencode")(known));
   if (text.find('\0') != std::string::npos) {
     throw FileError(text.substr(0, text.find('\0')), "", "a name that holds a null",
                     "a file's name");

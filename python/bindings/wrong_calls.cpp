@@ -1,5 +1,8 @@
 #include "wrong_calls.hpp"
 
+#include <string>
+#include <unordered_map>
+
 #include "bindings.hpp"
 
 namespace devlearn::python {
@@ -13,9 +16,15 @@ PyMethodDef* definition_of(py::handle function) {
 
 Entry dispatch = nullptr;  // pybind11's, one for all functions
 
+// Of each static method, by what it is bound to, the class that it belongs to.
+std::unordered_map<PyObject*, std::string>& owners() {
+  static auto* const all = new std::unordered_map<PyObject*, std::string>;
+  return *all;
+}
+
 // Has the Python side raise what is wrong with the call; what it cannot tell stays as it was.
-void explain(py::error_already_set& error, PyObject* const* values, Py_ssize_t count,
-             PyObject* names) {
+void explain(py::error_already_set& error, PyObject* self, PyObject* const* values,
+             Py_ssize_t count, PyObject* names) {
   py::tuple positional(static_cast<std::size_t>(count));
   for (Py_ssize_t i = 0; i < count; ++i) {
     positional[static_cast<std::size_t>(i)] = py::reinterpret_borrow<py::object>(values[i]);
@@ -24,7 +33,10 @@ void explain(py::error_already_set& error, PyObject* const* values, Py_ssize_t c
   for (Py_ssize_t i = 0; names != nullptr && i < PyTuple_GET_SIZE(names); ++i) {
     named[py::handle(PyTuple_GET_ITEM(names, i))] = py::handle(values[count + i]);
   }
-  py::module_::import("devlearn._calls").attr("explain")(py::str(error.value()), positional, named);
+  const auto owner = owners().find(self);
+  py::module_::import("devlearn._calls")
+      .attr("explain")(py::str(error.value()), positional, named,
+                       owner == owners().end() ? std::string() : owner->second);
 }
 
 PyObject* entry(PyObject* self, PyObject* const* values, Py_ssize_t count, PyObject* names) {
@@ -32,7 +44,7 @@ PyObject* entry(PyObject* self, PyObject* const* values, Py_ssize_t count, PyObj
   if (result != nullptr || !PyErr_ExceptionMatches(PyExc_TypeError)) return result;
   py::error_already_set error;
   try {
-    explain(error, values, count, names);
+    explain(error, self, values, count, names);
     error.restore();
   } catch (py::error_already_set& explained) {
     explained.restore();
@@ -61,8 +73,12 @@ void explain_wrong_calls(py::module_& m) {
     if (!PyType_Check(value.ptr())) continue;
     for (const auto& item : value.attr("__dict__").attr("items")()) {
       const py::object member = item.cast<py::tuple>()[1];
-      explain_wrong_calls_of(py::isinstance(member, static_method) ? member.attr("__func__")
-                                                                   : member);
+      const bool is_static = py::isinstance(member, static_method);
+      const py::object function = is_static ? member.attr("__func__") : member;
+      explain_wrong_calls_of(function);
+      if (is_static && PyCFunction_Check(function.ptr())) {
+        owners()[PyCFunction_GET_SELF(function.ptr())] = name.cast<std::string>();
+      }
     }
   }
 }

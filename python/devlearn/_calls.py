@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -26,16 +27,28 @@ class Argument(NamedTuple):
     by_name: bool = False
 
 
-def explain(message: str, values: tuple[Any, ...], named: Mapping[str, Any]) -> None:
+def path_text(path: object) -> str:
+    """A path as text. Raises WrongType for what is none."""
+    if not isinstance(path, (str, bytes, os.PathLike)):
+        raise WrongType("path", shown(path), "text, bytes or an os.PathLike")
+    return os.fsdecode(path)
+
+
+def explain(
+    message: str, values: tuple[Any, ...], named: Mapping[str, Any], owner: str = ""
+) -> None:
     """Raises WrongType for what is wrong; returns where the message is of something else.
 
-    ``message`` is pybind11's, with all signatures; ``values`` and ``named`` are what was given.
+    ``message`` is pybind11's, with all signatures; ``values`` and ``named`` are what was given;
+    ``owner`` is the class of a static method, which the message leaves out.
     """
     head, _, rest = message.partition("\n")
     if " arguments. The following argument types are supported" not in head:
         return
     made = "incompatible constructor arguments" in head
     name = "" if made else head.partition("(")[0]
+    if owner:
+        name = f"{owner}.{name}"
     signatures = [name + s for s in re.findall(r"^    \d+\. (.+)$", rest, re.MULTILINE)]
     faults = [_fault(signature, made, values, named) for signature in signatures]
     # Of several signatures, that which is wrong the latest is the one that was meant.
@@ -44,8 +57,8 @@ def explain(message: str, values: tuple[Any, ...], named: Mapping[str, Any]) -> 
         called, taken = _parsed(signatures[0], made)
         # What is being made is not to be looked at yet.
         given = values[1:] if made else values
-        shown = ", ".join([*map(_shown, given), *(f"{n}={_shown(v)}" for n, v in named.items())])
-        raise WrongType(called, f"({shown})", ", ".join(f"{a.name}: {a.kind}" for a in taken))
+        listed = ", ".join([*map(shown, given), *(f"{n}={shown(v)}" for n, v in named.items())])
+        raise WrongType(called, f"({listed})", ", ".join(f"{a.name}: {a.kind}" for a in taken))
     _, quantity, value, wanted = found
     raise WrongType(quantity, value, wanted)
 
@@ -64,7 +77,7 @@ def _fault(
         return 0, called, f"{len(given)} arguments", listed
     for name, value in named.items():
         if name not in names:
-            return 0, f"{called}.{name}", _shown(value), _instead(name, called, names)
+            return 0, f"{called}.{name}", shown(value), _instead(name, called, names)
         if name in names[: len(given)]:
             return 0, f"{called}.{name}", "two values", "one"
     bound = dict(zip(names, given)) | dict(named)
@@ -73,8 +86,8 @@ def _fault(
         if value is _NOT_HERE and argument.optional:
             continue
         if value is _NOT_HERE or not _fits(value, argument):
-            shown = "nothing" if value is _NOT_HERE else _shown(value)
-            return place + 1, f"{called}.{argument.name}", shown, _wanted(argument)
+            got = "nothing" if value is _NOT_HERE else shown(value)
+            return place + 1, f"{called}.{argument.name}", got, _wanted(argument)
     return None
 
 
@@ -245,7 +258,8 @@ def _listed(names: list[str]) -> str:
     return f"there are {', '.join(names)}" if names else "there are none"
 
 
-def _shown(value: object) -> str:
+def shown(value: object) -> str:
+    """A value as it may stand in a message."""
     try:
         text = repr(value)
     except Exception:  # a repr of the caller's

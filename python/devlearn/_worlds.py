@@ -3,6 +3,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from ._calls import path_text
 from .errors import FileError
 
 _FOLDER = Path(__file__).parent / "worlds"
@@ -15,7 +16,7 @@ def worlds() -> list[str]:
 
 def path_of(path_or_name: str | os.PathLike[str]) -> str:
     """The file that a path, or the name of a world that ships, stands for."""
-    text = os.fsdecode(path_or_name)
+    text = path_text(path_or_name)
     if text in worlds() and not os.path.isfile(text):
         return str(_FOLDER / f"{text}.json")
     if os.path.exists(text):

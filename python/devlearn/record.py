@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _npz
+from ._calls import path_text
 from .errors import FileError, InvalidValue, MissingExtra, WrongType
 
 if TYPE_CHECKING:
@@ -249,7 +250,7 @@ class Record:  # noqa: D101 - made of the columns
         count = len(self.rounds)
         if count == 0:
             raise InvalidValue("record", "no rounds", "one that holds rounds")
-        if not hasattr(i, "__index__"):
+        if isinstance(i, (bool, np.bool_)) or not hasattr(i, "__index__"):
             raise WrongType("round entry", repr(i), "a whole number")
         if not -count <= i < count:
             raise InvalidValue("round entry", i, f"in [{-count}, {count - 1}]")
@@ -269,7 +270,7 @@ class Record:  # noqa: D101 - made of the columns
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Record:
         """Read what ``save`` wrote, or the record in a trial's snapshot. Raises FileError."""
-        name = os.fsdecode(path)
+        name = path_text(path)
         with _npz.open_regular(name, _npz.WHAT) as file:
             if file.read(9)[8:] == b"{":  # where a snapshot's header begins
                 return cls._of_snapshot(file, name)
@@ -400,7 +401,7 @@ def written_aside(path: str | os.PathLike[str], mode: str) -> Iterator[IO[Any]]:
 
     What is there and is no file, such as /dev/stdout, is written to as it is.
     """
-    name = os.fsdecode(path)
+    name = path_text(path)
     if "\0" in name:
         raise FileError(name, "", "a name that holds a null", "a file that can be written")
     content = io.BytesIO()

@@ -63,7 +63,15 @@ WORLD = World.load("empty")
         ),
         (lambda: WORLD.clearance("a", 1), "World.clearance.x: got 'a'; expected a number"),
         (lambda: devlearn.direction("x"), "direction."),
-        (lambda: World.random("clutter", "1"), "random.seed: got '1'; expected a whole number"),
+        (lambda: World.load(3), "path: got 3; expected text, bytes or an os.PathLike"),
+        (lambda: Learner.load(None), "path: got None; expected text"),
+        (lambda: Trial(WORLD).save(1.5), "path: got 1.5; expected text"),
+        (lambda: devlearn.Record.load(3), "path: got 3; expected text"),
+        (lambda: devlearn.StateEvaluation.scaled("5", 1), "StateEvaluation.scaled.arena: got '5'"),
+        (
+            lambda: World.random("clutter", "1"),
+            "World.random.seed: got '1'; expected a whole number",
+        ),
     ],
 )
 def test_a_mistake_is_told_by_argument_value_and_what_is_wanted(call, says):

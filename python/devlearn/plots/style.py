@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Sequence
+import inspect
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import matplotlib as mpl
@@ -13,6 +14,9 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import ScaledTranslation
+
+from .._calls import shown
+from ..errors import WrongType
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,11 +58,30 @@ STYLE: Any = {  # matplotlib's own type lists every setting by name
 _F = TypeVar("_F", bound=Callable[..., Any])
 
 
+# What a plot reads, by the name of its first argument.
+_READS: dict[str, tuple[Callable[[Any], object], str]] = {
+    "record": (lambda read: hasattr(read, "steps_of"), "a Record, as the phases of a Trial give"),
+    "world": (
+        lambda read: hasattr(getattr(read, "world", read), "obstacles"),
+        "a World, or a Trial or Record in one",
+    ),
+    "values_by_label": (
+        lambda read: isinstance(read, Mapping),
+        "a dict or the like from labels to samples",
+    ),
+}
+
+
 def styled(plot: _F) -> _F:
-    """A plot drawn under ``STYLE``."""
+    """A plot drawn under ``STYLE``, of what it can read. Raises WrongType for anything else."""
+    first = next(iter(inspect.signature(plot).parameters))
+    can_be_read, wanted = _READS.get(first, (lambda _: True, ""))
 
     @functools.wraps(plot)
     def wrapper(*args: Any, **kwargs: Any) -> Any:
+        read = args[0] if args else kwargs.get(first)
+        if not can_be_read(read):
+            raise WrongType(first, shown(read), wanted)
         with mpl.rc_context(STYLE):
             return plot(*args, **kwargs)
 

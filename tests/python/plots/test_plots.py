@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from conftest import refused
-from devlearn import InvalidValue, Kind, plots
+from devlearn import InvalidValue, Kind, WrongType, plots
 from devlearn.plots.panels import panels, shared_legend
 from devlearn.plots.style import COLUMN
 from devlearn.record import STEP_COLUMNS
@@ -791,3 +791,15 @@ def test_every_finite_value_is_a_point_and_the_others_are_counted(ax):
     assert labels == ["paper", "step5\n(2 without value)"]
     assert set(by_gid(ax, "bound").get_ydata()) == {4}
     assert ax.get_ylabel() == "steps"
+
+
+@pytest.mark.parametrize("name", [name for name in plots.__all__ if name.startswith("plot_")])
+@pytest.mark.parametrize("odd", ["paper", None, 3, object()])
+def test_what_a_plot_cannot_read_is_refused_by_name_and_in_words(name, odd):
+    with pytest.raises(WrongType, match=r"^(record|world|values_by_label): got .*; expected a "):
+        getattr(plots, name)(odd)
+
+
+def test_a_truth_value_is_no_round(paths):
+    with pytest.raises(WrongType, match="round entry: got True; expected a whole number"):
+        plots.plot_trajectory(paths, entry=True)
