@@ -127,7 +127,7 @@ class LearnerNode : public rclcpp::Node {
     }
     arrived_ = arrived;
     const auto allowed =
-        allowed_motions(*scan_, kTurns, step_ + radius_ + margin_, kPi / 4, mounting_);
+        allowed_motions(*scan_, kTurns, step_ + radius_ + margin_, radius_ + margin_, mounting_);
     const bool none = std::none_of(allowed.begin(), allowed.end(), [](bool one) { return one; });
     const auto sef = evaluation(here);
     if (arrived || none || !sef) {  // at the target, shut in, or told too little
@@ -164,7 +164,7 @@ class LearnerNode : public rclcpp::Node {
   }
 
   bool blocked() const {
-    const auto free = nearest_echo(*scan_, 0.0, kPi / 4, mounting_);
+    const auto free = free_way(*scan_, 0.0, radius_, mounting_);
     return !free || *free < radius_ + margin_;
   }
 

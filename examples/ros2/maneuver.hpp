@@ -19,7 +19,7 @@ enum class Outcome {
   kUnderWay,
   kDone,
   kTimedOut,   // it tried, and the world did not let it
-  kPreempted,  // someone else took over, or set the clock back
+  kPreempted,  // someone else took over, turned the robot aside, or set the clock back
 };
 
 class Maneuver {
@@ -29,6 +29,7 @@ class Maneuver {
     double angular = 0.8;    // [rad/s]
     double tolerance = 3.0;  // of the heading [degrees]
     double patience = 10.0;  // [s]
+    double astray = 30.0;    // of the heading, while it drives [degrees]
   };
 
   // turn: counter-clockwise [degrees]; way: then ahead [m]; now: of any clock [s].
@@ -40,7 +41,8 @@ class Maneuver {
   // What to drive until the next tick; nothing once it is over.
   Command tick(const devlearn::Pose& here, double now) {
     if (outcome_ != Outcome::kUnderWay) return {};
-    if (!(now >= began_)) {  // the clock was set back: nobody knows how long it took
+    // The clock was set back, or the robot is nowhere: nobody knows what was done.
+    if (!(now >= began_) || !std::isfinite(here.x + here.y + here.heading)) {
       outcome_ = Outcome::kPreempted;
       return {};
     }
@@ -53,8 +55,13 @@ class Maneuver {
       turned_ = std::abs(left) <= limits_.tolerance;
       if (!turned_) return {0.0, std::clamp(left / 30.0, -1.0, 1.0) * limits_.angular};
     }
+    if (std::abs(to_turn(here)) > limits_.astray) {
+      outcome_ = Outcome::kPreempted;
+      return {};
+    }
     const devlearn::Direction ahead = devlearn::direction(from_.heading);
-    if ((here.x - from_.x) * ahead.x + (here.y - from_.y) * ahead.y >= way_) {
+    const double driven = (here.x - from_.x) * ahead.x + (here.y - from_.y) * ahead.y;
+    if (!(driven < way_)) {
       outcome_ = Outcome::kDone;
       return {};
     }

@@ -15,12 +15,14 @@ namespace devlearn_ros2 {
 constexpr double kPi = 3.14159265358979323846;
 
 // What one beam says of the distance [m]; nothing where it says nothing. By REP 117, inf is no echo
-// (free as far as the scanner reaches), -inf too near to measure, NaN a failure. Finite values out
-// of range are to be discarded; there are drivers that say "no echo" by 0.
+// (free as far as the scanner reaches), -inf too near to measure, NaN a failure. So is what lies
+// beyond range_max, and 0, by which some drivers say "no echo". What is nearer than range_min is
+// measured badly, and is there.
 inline std::optional<double> beam_distance(double range, double range_min, double range_max) {
   if (!(0.0 <= range_min && range_min <= range_max)) return std::nullopt;
   if (range == std::numeric_limits<double>::infinity()) return range_max;
   if (range == -std::numeric_limits<double>::infinity()) return 0.0;
+  if (0.0 < range && range < range_min) return 0.0;
   if (range_min <= range && range <= range_max) return range;  // never NaN
   return std::nullopt;
 }
@@ -48,14 +50,49 @@ std::optional<double> nearest_echo(const LaserScan& scan, double direction, doub
   return nearest;
 }
 
+constexpr double kLooked = 80.0 * kPi / 180.0;  // to either side of the way
+constexpr double kBlind = 10.0 * kPi / 180.0;   // in a row: what may hide in it is small, or far
+
+// How far it is free in a direction [m from the scanner], for what is 2 half_width [m] wide: up to
+// the nearest echo in the strip that it would drive through; range_max where there is none. Nothing
+// where more than kBlind in a row, within kLooked of the way, says nothing or is not looked at.
+template <typename LaserScan>
+std::optional<double> free_way(const LaserScan& scan, double direction, double half_width,
+                               double mounting = 0.0) {
+  const double step = scan.angle_increment;
+  if (!(std::abs(step) > 1e-6) || !(std::abs(step) <= kBlind)) return std::nullopt;
+  double nearest = scan.range_max;
+  double heard_last = -kLooked - kBlind;
+  const auto count = static_cast<double>(scan.ranges.size());
+  // The beams from right to left, whichever way the scanner turns.
+  const double first = direction - mounting - scan.angle_min;
+  for (double beside = -kLooked; beside <= kLooked; beside += std::abs(step)) {
+    const double turned = std::remainder(first + beside, 2.0 * kPi);
+    double beam = std::round(turned / step);
+    if (beam < 0.0) beam = std::round((turned + std::copysign(2.0 * kPi, step)) / step);
+    if (!(beam >= 0.0 && beam < count)) continue;
+    const auto distance =
+        beam_distance(scan.ranges[static_cast<std::size_t>(beam)], scan.range_min, scan.range_max);
+    if (!distance) continue;
+    if (beside - heard_last > kBlind + std::abs(step)) return std::nullopt;
+    heard_last = beside;
+    const bool echo = *distance < scan.range_max;
+    if (echo && *distance * std::abs(std::sin(beside)) < half_width) {
+      nearest = std::fmin(nearest, *distance * std::cos(beside));
+    }
+  }
+  if (kLooked - heard_last > kBlind) return std::nullopt;
+  return nearest;
+}
+
 // Which motions may be chosen now: those into whose direction (turns [degrees]) it is free for
-// `needed` m.
+// `needed` m, half_width m to either side.
 template <typename LaserScan, std::size_t N>
 std::array<bool, N> allowed_motions(const LaserScan& scan, const std::array<double, N>& turns,
                                     double needed, double half_width, double mounting = 0.0) {
   std::array<bool, N> allowed{};
   for (std::size_t motion = 0; motion < N; ++motion) {
-    const auto free = nearest_echo(scan, turns[motion] * kPi / 180.0, half_width, mounting);
+    const auto free = free_way(scan, turns[motion] * kPi / 180.0, half_width, mounting);
     allowed[motion] = free && *free >= needed;
   }
   return allowed;

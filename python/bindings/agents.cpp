@@ -327,17 +327,17 @@ void bind_agents(py::module_& m) {
 
   def_result(outcome, &Outcome::situation, &Outcome::sef, &Outcome::smf, &Outcome::collided,
              &Outcome::arrived, &Outcome::estimate, &Outcome::cost);
-  py::class_<RandomAgent, std::shared_ptr<RandomAgent>>(
-      m, "RandomAgent", "Uniformly random motions: what learning is measured against.")
+  py::class_<RandomAgent, std::shared_ptr<RandomAgent>> random_agent(
+      m, "RandomAgent", "Uniformly random motions: what learning is measured against.");
+  random_agent
       .def(py::init([](Whole<SeedTag> seed) { return std::make_shared<RandomAgent>(seed.value); }),
            py::arg("seed") = 0)
-      .def("__repr__",
-           [](const RandomAgent& self) {
-             return "<devlearn.RandomAgent: generator " + words_of(self.random()) + ">";
-           })
-      .def(py::pickle(
-          [](const RandomAgent& self) { return self.random().state(); },
-          [](const Random::State& state) { return std::make_shared<RandomAgent>(Random(state)); }));
+      .def("__repr__", [](const RandomAgent& self) {
+        return "<devlearn.RandomAgent: generator " + words_of(self.random()) + ">";
+      });
+  def_pickling_by_state(
+      random_agent, [](const RandomAgent& self) { return self.random().state(); },
+      [](const py::object& state) { return RandomAgent(Random(state.cast<Random::State>())); });
 }
 
 }  // namespace devlearn::python

@@ -127,6 +127,26 @@ py::array moved_array(std::vector<T>&& values, std::vector<py::ssize_t> shape = 
 /// A value as it may stand in a message: its repr, or another text of it, cut where it is long.
 std::string shown(py::handle value, PyObject* (*text)(PyObject*) = PyObject_Repr);
 
+/// Pickling by state(T) and made(state), a T; what an object of a derived class has besides comes
+/// along.
+template <typename Class, typename State, typename Made>
+void def_pickling_by_state(Class& cls, const State& state, const Made& made) {
+  using T = typename Class::type;
+  cls.def(py::pickle(
+      [=](const py::object& self) {
+        return py::make_tuple(state(self.cast<const T&>()),
+                              py::getattr(self, "__dict__", py::dict()));
+      },
+      [=](const py::object& given) {
+        if (!py::isinstance<py::tuple>(given) || py::len(given) != 2) {
+          throw InvalidValue("state", shown(given), "a tuple of two, as pickle writes it");
+        }
+        const auto both = given.cast<py::tuple>();
+        return std::pair(std::make_shared<T>(made(both[0])),
+                         both[1].attr("copy")().template cast<py::dict>());
+      }));
+}
+
 /// The attributes of these names, as a tuple.
 inline py::tuple attributes(const py::object& self, const std::vector<std::string>& names) {
   py::tuple values(names.size());

@@ -136,6 +136,21 @@ Learner copy(const Learner& learner) {
   return learner;
 }
 
+py::object module_copy(const char* function, const py::object& value, const py::dict& memo) {
+  const py::object call = py::module_::import("copy").attr(function);
+  return std::string_view(function) == "deepcopy" ? call(value, memo) : call(value);
+}
+
+// An object of a derived class goes the way of pickle: it keeps its class, and what it has besides.
+py::object copied(const py::object& self, const char* function, const py::dict& memo) {
+  const py::object cls = py::type::of(self);
+  if (cls.is(py::type::of<Learner>())) return py::cast(copy(self.cast<const Learner&>()));
+  py::object made = cls.attr("__new__")(cls);
+  memo[py::int_(reinterpret_cast<std::uintptr_t>(self.ptr()))] = made;  // it may hold itself
+  made.attr("__setstate__")(module_copy(function, self.attr("__getstate__")(), memo));
+  return made;
+}
+
 Learner from_bytes(const py::bytes& bytes) {
   const std::string_view view = bytes;
   const NoGil no_gil;
@@ -397,13 +412,15 @@ void bind_learner(py::module_& m) {
       .def("to_bytes", &snapshot_bytes, "The snapshot as bytes.")
       .def_static("from_bytes", &from_bytes, py::arg("snapshot"),
                   "The learner in a snapshot's bytes. Raises FileError.")
-      .def(py::pickle(
-          &snapshot_bytes,
-          [](const py::bytes& bytes) { return std::make_shared<Learner>(from_bytes(bytes)); }))
-      .def("copy", &copy, "An independent learner that goes on alike.")
-      .def("__copy__", &copy)
       .def(
-          "__deepcopy__", [](const Learner& self, const py::dict&) { return copy(self); },
+          "copy", [](const py::object& self) { return copied(self, "deepcopy", py::dict()); },
+          "An independent learner that goes on alike.")
+      .def("__copy__", [](const py::object& self) { return copied(self, "copy", py::dict()); })
+      .def(
+          "__deepcopy__",
+          [](const py::object& self, const py::dict& memo) {
+            return copied(self, "deepcopy", memo);
+          },
           py::arg("memo"))
       .def_property_readonly(
           "explored_count", [](Idle self) { return self->explored_count(); },
@@ -428,6 +445,9 @@ void bind_learner(py::module_& m) {
                " situations, " + std::to_string(self->explored_count()) + " mappings explored, " +
                std::to_string(self->effective_count()) + " effective>";
       });
+  def_pickling_by_state(cls, &snapshot_bytes, [](const py::object& state) {
+    return from_bytes(state.cast<py::bytes>());
+  });
   StraightMethod<&choose>::put_before(cls, "choose");
   StraightMethod<&learn>::put_before(cls, "learn");
 }

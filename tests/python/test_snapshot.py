@@ -388,3 +388,37 @@ def test_steps_of_one_round_in_several_calls_join_to_one_round(paper):
     joined = devlearn.Record.concatenate(parts)
     assert joined.rounds["steps"].tolist() == [38, 4]
     assert differences(joined, devlearn.Record.concatenate([expected, whole.run(4)])) == []
+
+
+@pytest.mark.parametrize("base", [devlearn.Learner, devlearn.RandomAgent])
+def test_a_class_derived_from_ours_survives_with_all_that_it_has(base):
+    derived = {devlearn.Learner: Logging, devlearn.RandomAgent: RandomLogging}[base]
+    for again in (
+        lambda a: pickle.loads(pickle.dumps(a)),
+        copy.copy,
+        copy.deepcopy,
+        lambda a: a.copy() if base is devlearn.Learner else copy.copy(a),
+    ):
+        original = derived()
+        original.log, original.me = [1, 2], original
+        copied = again(original)
+        assert type(copied) is derived
+        assert copied is not original
+        assert copied.log == [1, 2]
+        copied.other = 3
+        assert not hasattr(original, "other")
+    deep = copy.deepcopy(original)
+    assert deep.me is deep
+    assert deep.log is not original.log
+    trial = devlearn.Trial(devlearn.World.load("empty"), agent=original, seed=1)
+    trial.free_learning(50)
+    assert type(copy.deepcopy(trial).agent) is derived
+    assert copy.deepcopy(trial).agent.log == [1, 2]
+
+
+class Logging(devlearn.Learner):
+    """Adds what it likes."""
+
+
+class RandomLogging(devlearn.RandomAgent):
+    """Likewise."""

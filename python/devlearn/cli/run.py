@@ -137,20 +137,21 @@ def _made(
         trial, whole = survival.run_to_the_end(
             folder, world, config, options.seed, planned, whence, options.echoes, options.save_every
         )
+        made = schedule.run_of(whole, trial)
+        for name, record in zip(names, (made.first, made.second, made.paths)):
+            record.save(folder / f"{name}.npz")
+            if options.csv:
+                record.to_csv(folder / f"{name}.csv")
+        with written_aside(folder / "rounds.csv", "w") as file:
+            file.write("round,steps,arrived\n")
+            file.writelines(
+                f"{r['round']},{r['steps']},{int(r['arrived'])}\n" for r in made.paths.rounds
+            )
+        _draw(folder, made)
     except KeyboardInterrupt:
-        warn(f"what is finished is kept in {folder}; the same command goes on from there")
+        if (folder / survival.STATE).exists():
+            warn(f"what is finished is kept in {folder}; the same command goes on from there")
         raise
-    made = schedule.run_of(whole, trial)
-    for name, record in zip(names, (made.first, made.second, made.paths)):
-        record.save(folder / f"{name}.npz")
-        if options.csv:
-            record.to_csv(folder / f"{name}.csv")
-    with written_aside(folder / "rounds.csv", "w") as file:
-        file.write("round,steps,arrived\n")
-        file.writelines(
-            f"{r['round']},{r['steps']},{int(r['arrived'])}\n" for r in made.paths.rounds
-        )
-    _draw(folder, made)
     survival.end(folder, whence)
     return made
 

@@ -21,6 +21,7 @@ ABOUT = "run.json"  # which run the folder is of, and whether it is finished
 STATE = "state.safetensors"  # a trial's snapshot, with the record so far
 AT_ONCE = 1000  # steps between two looks at the clock and for Ctrl-C
 SECONDS = 10.0  # between two saves
+WORTH_KEEPING = 0.5  # seconds of work
 SHARE = 0.05  # of the time at most that saving may take
 
 
@@ -123,18 +124,29 @@ def run_to_the_end(
             since = time.monotonic() - saved
             due = unsaved >= save_every if save_every else since >= max(SECONDS, cost / SHARE)
             if due or asked:
-                began = time.monotonic()
-                joined = Record.concatenate(parts)
-                joined.provenance = whence
-                trial.save(state, joined)
-                parts = [joined]
+                parts, cost = _save(state, trial, parts, whence)
                 unsaved, saved = 0, time.monotonic()
-                cost = saved - began
             if asked:
                 raise KeyboardInterrupt(asked[0])
+        # Its files are yet to be written, and may take longer than it did.
+        if unsaved and time.monotonic() - saved > WORTH_KEEPING:
+            parts, _ = _save(state, trial, parts, whence)
+        if asked:
+            raise KeyboardInterrupt(asked[0])
     whole = Record.concatenate(parts)
     whole.provenance = {k: v for k, v in whence.items() if k not in ("run", "code")}
     return trial, whole
+
+
+def _save(
+    state: Path, trial: _core.Trial, parts: list[Record], whence: Mapping[str, Any]
+) -> tuple[list[Record], float]:
+    """Saves trial and record; the record, joined, and the seconds that it took."""
+    began = time.monotonic()
+    joined = Record.concatenate(parts)
+    joined.provenance = dict(whence)
+    trial.save(state, joined)
+    return [joined], time.monotonic() - began
 
 
 def _require_same(

@@ -90,3 +90,20 @@ TEST_CASE("what was done teaches what it was, a time-out never good, a preemptio
   CHECK_FALSE(lesson(Outcome::kPreempted, 10.0, 10.5));
   CHECK_FALSE(lesson(Outcome::kUnderWay, 10.0, 10.5));
 }
+
+TEST_CASE("a robot that is turned aside while it drives, or is nowhere, stops and learns nothing") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Pose& pushed : {Pose{0.1, 0.0, 80.0}, Pose{0.1, 0.0, 300.0}, Pose{nan, 0.0, 0.0},
+                             Pose{0.0, nan, 0.0}, Pose{0.0, 0.0, nan}}) {
+    Maneuver maneuver({}, 0.0, 0.25, 0.0, {});
+    CHECK(maneuver.tick({0.0, 0.0, 0.0}, 0.9).linear > 0.0);
+    CHECK(maneuver.tick({0.1, 0.0, 20.0}, 1.0).linear > 0.0);
+    CHECK(stands(maneuver.tick(pushed, 1.1)));
+    CHECK(maneuver.outcome() == Outcome::kPreempted);
+    CHECK_FALSE(lesson(maneuver.outcome(), 0.0, 5.0));
+  }
+  // A way that is no number is none.
+  Maneuver maneuver({}, 0.0, nan, 0.0, {});
+  CHECK(stands(maneuver.tick({}, 0.1)));
+  CHECK(maneuver.outcome() == Outcome::kDone);
+}

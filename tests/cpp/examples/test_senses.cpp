@@ -45,16 +45,19 @@ Quaternion rotation(double yaw_degrees) {
 
 }  // namespace
 
-TEST_CASE("a beam's infinity is free, minus infinity too near, and NaN or out of range unknown") {
+TEST_CASE(
+    "a beam's infinity is free, minus infinity and the nearest too near, and NaN or beyond "
+    "unknown") {
   CHECK(beam_distance(1.5, 0.25, 8.0) == 1.5);
   CHECK(beam_distance(0.25, 0.25, 8.0) == 0.25);
   CHECK(beam_distance(8.0, 0.25, 8.0) == 8.0);
   CHECK(beam_distance(kInfinity, 0.25, 8.0) == 8.0);
   CHECK(beam_distance(-kInfinity, 0.25, 8.0) == 0.0);
-  for (const double unknown : {0.0, 0.2499, 8.001, 65.533, -1.0, double{kNaN}}) {
+  for (const double unknown : {0.0, 8.001, 65.533, -1.0, double{kNaN}}) {
     CAPTURE(unknown);
     CHECK_FALSE(beam_distance(unknown, 0.25, 8.0));
   }
+  CHECK(beam_distance(0.2499, 0.25, 8.0) == 0.0);
   // Of a scanner whose range is none, nothing is believed.
   CHECK_FALSE(beam_distance(1.0, kNaN, 8.0));
   CHECK_FALSE(beam_distance(kInfinity, 0.25, kNaN));
@@ -115,13 +118,60 @@ TEST_CASE("where the scan says too little, the distance is unknown and not free"
   CHECK_FALSE(nearest_echo(broken, 0.0, 0.3));
 }
 
+TEST_CASE("a way is free up to what stands in the strip that the body drives through") {
+  Scan scan;
+  CHECK(free_way(scan, 0.0, 0.3) == 8.0);
+  // 0.5 m off at 46 degrees: 0.36 m beside the way, 0.35 m ahead.
+  scan.at(46) = 0.5F;
+  CHECK(*free_way(scan, 0.0, 0.4) == doctest::Approx(0.5 * std::cos(46 * kDegree)).epsilon(0.03));
+  CHECK(free_way(scan, 0.0, 0.35) == 8.0);
+  CHECK(*free_way(scan, 46 * kDegree, 0.35) == doctest::Approx(0.5));
+  CHECK(free_way(scan, kPi, 0.35) == 8.0);
+  // What is too near to measure is there.
+  scan.at(-20) = 0.1F;
+  CHECK(free_way(scan, 0.0, 0.1) == 0.0);
+  // The other way round, and across the scan's ends.
+  Scan back;
+  back.angle_min = static_cast<float>(kPi);
+  back.angle_increment = -back.angle_increment;
+  back.at(10) = 2.0F;  // ten degrees to the right
+  CHECK(*free_way(back, -10 * kDegree, 0.1) == doctest::Approx(2.0).epsilon(0.001));
+  scan.at(-178) = 3.0F;
+  CHECK(*free_way(scan, 178 * kDegree, 0.3) == doctest::Approx(3.0).epsilon(0.01));
+}
+
+TEST_CASE("a way that is not looked at is not free") {
+  Scan scan;
+  for (int degrees = -4; degrees <= 4; ++degrees) scan.at(degrees) = kNaN;
+  CHECK(free_way(scan, 0.0, 0.3) == 8.0);
+  for (int degrees = -12; degrees <= 12; ++degrees) scan.at(degrees) = kNaN;
+  CHECK_FALSE(free_way(scan, 0.0, 0.3));
+  CHECK_FALSE(free_way(scan, 40 * kDegree, 0.3));
+  CHECK(free_way(scan, 120 * kDegree, 0.3) == 8.0);
+  // Of a scanner that looks ahead, the way ahead alone, and of a narrow one none.
+  Scan front;
+  front.angle_min = static_cast<float>(-kPi / 2);
+  front.ranges.assign(181, 8.0F);
+  CHECK(free_way(front, 0.0, 0.3) == 8.0);
+  CHECK_FALSE(free_way(front, 60 * kDegree, 0.3));
+  CHECK_FALSE(free_way(front, kPi, 0.3));
+  front.angle_min = static_cast<float>(-kPi / 4);
+  front.ranges.assign(91, 8.0F);
+  CHECK_FALSE(free_way(front, 0.0, 0.3));
+  Scan broken;
+  broken.angle_increment = kNaN;
+  CHECK_FALSE(free_way(broken, 0.0, 0.3));
+  broken.angle_increment = 0.0F;
+  CHECK_FALSE(free_way(broken, 0.0, 0.3));
+}
+
 TEST_CASE("motions towards what is near or unknown are not allowed, and never chosen") {
   const std::array<double, 4> turns{0.0, 90.0, 180.0, -90.0};
   Scan scan;
   scan.at(5) = 0.4F;
   scan.at(85) = 0.6F;
   for (int degrees = -100; degrees <= -80; ++degrees) scan.at(degrees) = kNaN;
-  const auto allowed = allowed_motions(scan, turns, 0.5, 10 * kDegree);
+  const auto allowed = allowed_motions(scan, turns, 0.5, 0.2);
   CHECK(allowed == std::array<bool, 4>{false, true, true, false});
 
   devlearn::LearnerConfig config;
@@ -168,4 +218,31 @@ TEST_CASE("a transform's radians become the situation of its degrees, outside th
   CHECK(grid.situation(*pose) == grid.situation(1.0, -2.0, 270.0));
   const auto outside = pose_of(Transform{{2.7, 0.0, 0.0}, rotation(30.0)});
   CHECK(grid.situation(*outside) == grid.situation(2.49, 0.0, 30.0));
+}
+
+TEST_CASE("a motion that is allowed never comes nearer than the margin to what was seen") {
+  const std::array<double, 6> turns{0.0, 60.0, 120.0, 180.0, -120.0, -60.0};
+  const double step = 0.25, margin = 0.1;
+  double least_gap = 1.0;
+  for (const double radius : {0.2, 0.3, 0.4}) {
+    for (double away = radius + margin + 0.001; away < 1.2; away += 0.02) {
+      for (int degrees = -180; degrees < 180; degrees += 2) {
+        Scan scan;
+        scan.at(degrees) = static_cast<float>(away);
+        const auto allowed = allowed_motions(scan, turns, step + radius + margin, radius + margin);
+        for (std::size_t m = 0; m < turns.size(); ++m) {
+          for (double way = 0.0; allowed[m] && way <= step; way += 0.01) {
+            least_gap = std::fmin(least_gap, std::hypot(away * std::cos(degrees * kDegree) -
+                                                            way * std::cos(turns[m] * kDegree),
+                                                        away * std::sin(degrees * kDegree) -
+                                                            way * std::sin(turns[m] * kDegree)) -
+                                                 radius);
+          }
+        }
+      }
+    }
+  }
+  // A beam is a degree wide.
+  CHECK(least_gap > margin - 0.01);
+  CHECK(least_gap < margin + 0.01);
 }

@@ -16,7 +16,7 @@ import devlearn
 import numpy as np
 import pytest
 from conftest import differences, refusal
-from devlearn import Record, TrialConfig, World, _core, cli
+from devlearn import Record, Trial, TrialConfig, World, _core, cli
 from devlearn.experiments import runs
 from devlearn.paper import jobs, measures, schedule, survival, tables
 from devlearn.paper.claims import claims
@@ -247,6 +247,29 @@ def stopped_by_ctrl_c(line, monkeypatch, rounds):
     with monkeypatch.context() as patch:
         patch.setattr(schedule.Schedule, "parts", stopped)
         assert cli.main(line) == 130
+
+
+def test_ctrl_c_while_the_files_are_written_loses_nothing_of_what_was_run(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setattr(cli.run, "_draw", lambda *_: None)
+    monkeypatch.setattr(survival, "WORTH_KEEPING", 0.0)
+    line = [*LONG, "--output", str(tmp_path / "stopped")]
+    with monkeypatch.context() as patch:
+        patch.setattr(Record, "save", lambda *_: os.kill(os.getpid(), signal.SIGINT))
+        assert cli.main(line) == 130
+    assert "the same command goes on from there" in capsys.readouterr().err
+
+    def never(*_, **__):
+        raise AssertionError("it was run again")
+
+    with monkeypatch.context() as patch:
+        for phase in ("run", "path_learning", "finish_round"):
+            patch.setattr(Trial, phase, never)
+        assert cli.main(line) == 0
+    assert cli.main([*LONG, "--output", str(tmp_path / "whole")]) == 0
+    for name in ("free_1.npz", "free_2.npz", "paths.npz"):
+        assert Record.load(tmp_path / "stopped" / name) == Record.load(tmp_path / "whole" / name)
 
 
 def test_a_run_stopped_by_ctrl_c_goes_on_when_called_again(tmp_path, monkeypatch, capsys):
