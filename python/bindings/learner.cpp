@@ -136,18 +136,18 @@ Learner copy(const Learner& learner) {
   return learner;
 }
 
-py::object module_copy(const char* function, const py::object& value, const py::dict& memo) {
-  const py::object call = py::module_::import("copy").attr(function);
-  return std::string_view(function) == "deepcopy" ? call(value, memo) : call(value);
-}
-
-// An object of a derived class goes the way of pickle: it keeps its class, and what it has besides.
-py::object copied(const py::object& self, const char* function, const py::dict& memo) {
+// An object of a derived class goes the way of pickle: it keeps its class, and what it has besides,
+// copied where there is a memo.
+py::object copied(const py::object& self, const std::optional<py::dict>& memo) {
   const py::object cls = py::type::of(self);
   if (cls.is(py::type::of<Learner>())) return py::cast(copy(self.cast<const Learner&>()));
   py::object made = cls.attr("__new__")(cls);
-  memo[py::int_(reinterpret_cast<std::uintptr_t>(self.ptr()))] = made;  // it may hold itself
-  made.attr("__setstate__")(module_copy(function, self.attr("__getstate__")(), memo));
+  py::object state = self.attr("__getstate__")();
+  if (memo) {
+    (*memo)[py::int_(reinterpret_cast<std::uintptr_t>(self.ptr()))] = made;  // it may hold itself
+    state = py::module_::import("copy").attr("deepcopy")(state, *memo);
+  }
+  made.attr("__setstate__")(state);
   return made;
 }
 
@@ -413,14 +413,12 @@ void bind_learner(py::module_& m) {
       .def_static("from_bytes", &from_bytes, py::arg("snapshot"),
                   "The learner in a snapshot's bytes. Raises FileError.")
       .def(
-          "copy", [](const py::object& self) { return copied(self, "deepcopy", py::dict()); },
+          "copy", [](const py::object& self) { return copied(self, py::dict()); },
           "An independent learner that goes on alike.")
-      .def("__copy__", [](const py::object& self) { return copied(self, "copy", py::dict()); })
+      .def("__copy__", [](const py::object& self) { return copied(self, std::nullopt); })
       .def(
           "__deepcopy__",
-          [](const py::object& self, const py::dict& memo) {
-            return copied(self, "deepcopy", memo);
-          },
+          [](const py::object& self, const py::dict& memo) { return copied(self, memo); },
           py::arg("memo"))
       .def_property_readonly(
           "explored_count", [](Idle self) { return self->explored_count(); },

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _npz
-from ._calls import path_text
+from ._calls import path_text, shown
 from .errors import FileError, InvalidValue, MissingExtra, WrongType
 
 if TYPE_CHECKING:
@@ -251,7 +251,7 @@ class Record:  # noqa: D101 - made of the columns
         if count == 0:
             raise InvalidValue("record", "no rounds", "one that holds rounds")
         if isinstance(i, (bool, np.bool_)) or not hasattr(i, "__index__"):
-            raise WrongType("round entry", repr(i), "a whole number")
+            raise WrongType("round entry", shown(i), "a whole number")
         if not -count <= i < count:
             raise InvalidValue("round entry", i, f"in [{-count}, {count - 1}]")
         return i % count

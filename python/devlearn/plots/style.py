@@ -62,7 +62,8 @@ _F = TypeVar("_F", bound=Callable[..., Any])
 _READS: dict[str, tuple[Callable[[Any], object], str]] = {
     "record": (lambda read: hasattr(read, "steps_of"), "a Record, as the phases of a Trial give"),
     "world": (
-        lambda read: hasattr(getattr(read, "world", read), "obstacles"),
+        # Of the type: a record makes its world anew each time it is asked.
+        lambda read: hasattr(type(read), "obstacles") or hasattr(type(read), "world"),
         "a World, or a Trial or Record in one",
     ),
     "values_by_label": (
