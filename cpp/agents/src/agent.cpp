@@ -1,8 +1,11 @@
 #include "devlearn/agent.hpp"
 
 #include "devlearn/error.hpp"
+#include "devlearn/expected_sarsa.hpp"
 #include "devlearn/learner_agent.hpp"
+#include "devlearn/q_learning.hpp"
 #include "devlearn/random_agent.hpp"
+#include "devlearn/sarsa_lambda.hpp"
 
 namespace devlearn {
 
@@ -12,10 +15,21 @@ const std::string& AgentState::text(const std::string& name) const {
   return found->second;
 }
 
+namespace {
+
+// That one of these kinds whose state it is, or null.
+template <typename... Kinds>
+std::shared_ptr<Agent> one_of(const AgentState& state, const std::string& source) {
+  std::shared_ptr<Agent> agent;
+  static_cast<void>(
+      ((state.kind == Kinds::kKind && (agent = std::make_shared<Kinds>(state, source))) || ...));
+  return agent;
+}
+
+}  // namespace
+
 std::shared_ptr<Agent> make_agent(const AgentState& state, const std::string& source) {
-  if (state.kind == LearnerAgent::kKind) return std::make_shared<LearnerAgent>(state, source);
-  if (state.kind == RandomAgent::kKind) return std::make_shared<RandomAgent>(state, source);
-  return nullptr;
+  return one_of<LearnerAgent, RandomAgent, QLearning, ExpectedSarsa, SarsaLambda>(state, source);
 }
 
 }  // namespace devlearn

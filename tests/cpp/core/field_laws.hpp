@@ -64,7 +64,8 @@ void change(const Field& field, T& value) {
   } else if constexpr (std::is_same_v<T, bool>) {
     value = !value;
   } else if constexpr (std::is_same_v<T, double>) {
-    value = value == 0.0 ? 0.1 : 1.1 * value;
+    const double more = value == 0.0 ? 0.1 : 1.1 * value;
+    value = field.range.allows(more) ? more : 0.9 * value;
     CHECK(field.range.allows(value));
   } else if constexpr (std::is_same_v<T, std::optional<double>>) {
     value = value ? 1.1 * *value : 0.1;

@@ -84,8 +84,8 @@ class Agent {
 /// stay.
 using AgentMaker = std::function<std::shared_ptr<Agent>(const AgentState&)>;
 
-/// That of devlearn's own agents: the kinds `learner` and `random`. Throws FileError, naming
-/// `source`, for a state that does not fit.
+/// That of devlearn's own agents, by their kKind. Throws FileError, naming `source`, for a state
+/// that does not fit.
 std::shared_ptr<Agent> make_agent(const AgentState& state, const std::string& source = "state");
 
 }  // namespace devlearn
