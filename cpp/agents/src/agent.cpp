@@ -1,9 +1,13 @@
 #include "devlearn/agent.hpp"
 
+#include "devlearn/dyna_q.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/expected_sarsa.hpp"
 #include "devlearn/learner_agent.hpp"
+#include "devlearn/lrta_star.hpp"
+#include "devlearn/prioritized_sweeping.hpp"
 #include "devlearn/q_learning.hpp"
+#include "devlearn/r_max.hpp"
 #include "devlearn/random_agent.hpp"
 #include "devlearn/sarsa_lambda.hpp"
 
@@ -29,7 +33,8 @@ std::shared_ptr<Agent> one_of(const AgentState& state, const std::string& source
 }  // namespace
 
 std::shared_ptr<Agent> make_agent(const AgentState& state, const std::string& source) {
-  return one_of<LearnerAgent, RandomAgent, QLearning, ExpectedSarsa, SarsaLambda>(state, source);
+  return one_of<LearnerAgent, RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, DynaQ,
+                PrioritizedSweeping, LrtaStar, RMax>(state, source);
 }
 
 }  // namespace devlearn

@@ -119,12 +119,17 @@ double ValueTable::expected(Row row, double epsilon) const noexcept {
   return (1.0 - epsilon) * max(row) + epsilon * (sum / count);
 }
 
-std::optional<double> ValueTable::value(SituationId situation, int motion) const {
+std::optional<std::size_t> ValueTable::find(SituationId situation, int motion) const {
   require_situation(situation);
   require_count("motion", motion, 0, (motion_count_ == 0 ? kMostMotions : motion_count_) - 1);
   const Row row = index_.find(situation);
   if (row == kNoRow) return std::nullopt;
-  return q_[pair(row, motion)];
+  return pair(row, motion);
+}
+
+std::optional<double> ValueTable::value(SituationId situation, int motion) const {
+  const std::optional<std::size_t> found = find(situation, motion);
+  return found ? std::optional(q_[*found]) : std::nullopt;
 }
 
 Row ValueTable::find_or_add(SituationId situation, double estimate) {

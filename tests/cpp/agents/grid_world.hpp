@@ -134,6 +134,53 @@ std::optional<std::vector<int>> greedy_path(const ValueAgent& agent, const GridW
   return path;
 }
 
+/// A grid world of which the arrival alone is rewarded, with 1.
+inline GridWorld rewarding_arrival(std::vector<std::string> drawn) {
+  GridWorld world(std::move(drawn));
+  world.step_cost = 0.0;
+  world.arrival_cost = -1.0;
+  return world;
+}
+
+/// The maze of Sutton & Barto, Example 8.1, each of its cells divided into scale x scale; start and
+/// goal are one cell.
+inline GridWorld dyna_maze(int scale = 1) {
+  std::vector<std::string> drawn;
+  for (const char* row :
+       {".......#G", "..#....#.", "S.#....#.", "..#......", ".....#...", "........."}) {
+    for (int i = 0; i < scale; ++i) {
+      drawn.emplace_back();
+      for (const char cell : std::string(row)) {
+        for (int j = 0; j < scale; ++j) {
+          const bool whole = cell == '#' || i + j == 0;
+          drawn.back() += whole ? cell : '.';
+        }
+      }
+    }
+  }
+  return rewarding_arrival(drawn);
+}
+
+/// A square of cells, a fourth of them walls, with a way from start to goal.
+inline GridWorld random_world(std::uint64_t seed, int side) {
+  devlearn::Random random(seed, "grid");
+  const auto cells = static_cast<std::uint32_t>(side);
+  for (;;) {
+    std::vector<std::string> drawn(cells, std::string(cells, '.'));
+    for (std::string& row : drawn) {
+      for (char& cell : row) cell = random.uniform() < 0.25 ? '#' : '.';
+    }
+    const auto draw = [&]() -> char& {
+      std::string& row = drawn[random.index(cells)];
+      return row[random.index(cells)];
+    };
+    draw() = 'S';
+    draw() = 'G';
+    const GridWorld world(drawn);
+    if (world.at(world.start) == 'S' && world.shortest(world.start) > 0) return world;
+  }
+}
+
 /// Sutton & Barto, Example 6.6.
 inline GridWorld cliff_world() {
   return GridWorld({"............",  //

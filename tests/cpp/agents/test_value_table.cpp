@@ -15,14 +15,19 @@
 #include "core/field_laws.hpp"
 #include "core/refusal.hpp"
 #include "devlearn/detail/value_table.hpp"
+#include "devlearn/dyna_q.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/expected_sarsa.hpp"
+#include "devlearn/lrta_star.hpp"
+#include "devlearn/prioritized_sweeping.hpp"
 #include "devlearn/q_learning.hpp"
+#include "devlearn/r_max.hpp"
 #include "devlearn/sarsa_lambda.hpp"
 
 using namespace devlearn;
 
-#define VALUE_AGENTS QLearning, ExpectedSarsa, SarsaLambda
+#define VALUE_AGENTS \
+  QLearning, ExpectedSarsa, SarsaLambda, DynaQ, PrioritizedSweeping, LrtaStar, RMax
 
 namespace {
 
@@ -269,7 +274,7 @@ TEST_CASE_TEMPLATE("a state that breaks a law makes no agent", A, VALUE_AGENTS) 
     spoilt.arrays[name] = array_of(std::vector<std::uint16_t>{1});
     check_no_agent_is_made(spoilt);
     if (name == "random") continue;  // any words but zeros
-    spoilt.arrays[name] = filled(array, 0xff);
+    spoilt.arrays[name] = filled(array, 0xfd);
     check_no_agent_is_made(spoilt);
   }
   AgentState spoilt = good;

@@ -24,7 +24,10 @@ constexpr std::size_t count_of = std::tuple_size_v<decltype(Def::fields().each)>
 template <typename Def>
 auto members_of(const Def& def) {
   constexpr std::size_t n = count_of<Def>;
-  if constexpr (n == 5) {
+  if constexpr (n == 2) {
+    const auto& [a, b] = def;
+    return std::tuple(&a, &b);
+  } else if constexpr (n == 5) {
     const auto& [a, b, c, d, e] = def;
     return std::tuple(&a, &b, &c, &d, &e);
   } else if constexpr (n == 6) {

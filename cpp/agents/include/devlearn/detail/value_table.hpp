@@ -92,6 +92,8 @@ class ValueTable {
     set(pair, q_[pair] + alpha * (target - q_[pair]));
   }
 
+  /// The pair of a situation and motion; nothing for a situation never met. Throws as value does.
+  std::optional<std::size_t> find(SituationId situation, int motion) const;
   /// Q of a situation and motion; nothing for a situation never met. Throws InvalidValue for a
   /// negative situation, or a motion outside M.
   std::optional<double> value(SituationId situation, int motion) const;
