@@ -1,6 +1,7 @@
 #include "agents.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <initializer_list>
 #include <iterator>
 #include <limits>
@@ -10,7 +11,6 @@
 #include "devlearn/agent.hpp"
 #include "devlearn/detail/require.hpp"
 #include "devlearn/learner_agent.hpp"
-#include "devlearn/random_agent.hpp"
 
 namespace devlearn::python {
 namespace {
@@ -78,21 +78,7 @@ AgentState state_from(const py::object& agent) {
   if (!py::isinstance<py::dict>(given)) {
     throw InvalidValue("agent.state()", shown(given), "a dict of numpy arrays by name");
   }
-  AgentState state;
-  state.kind = name_of(py::type::of(agent));
-  for (const auto& [key, value] : given.cast<py::dict>()) {
-    const std::string shown_key = shown(key);
-    if (!py::isinstance<py::str>(key)) {
-      throw InvalidValue("agent.state()", shown_key, "a name that is a str");
-    }
-    const std::string name = text_from("agent.state()", key);
-    if (py::isinstance<py::str>(value)) {
-      state.texts[name] = text_from("agent.state()[" + shown_key + "]", value);
-    } else {
-      state.arrays[name] = array_from(shown_key, py::reinterpret_borrow<py::object>(value));
-    }
-  }
-  return state;
+  return state_of_dict(name_of(py::type::of(agent)), given.cast<py::dict>());
 }
 
 // numpy bounds dimensions and lengths by more than the bytes.
@@ -104,24 +90,6 @@ py::array numpy_array(const std::string& name, const py::dtype& dtype,
     if (!error.matches(PyExc_ValueError)) throw;
     throw InvalidValue(name, shown(error.value(), PyObject_Str), "a shape that numpy can hold");
   }
-}
-
-// The reverse: texts as str, arrays without dimensions as numbers, others as numpy arrays.
-py::dict dict_of(const AgentState& state) {
-  py::dict result;
-  for (const auto& [name, text] : state.texts) result[py::str(name)] = py::str(text);
-  for (const auto& [name, array] : state.arrays) {
-    const auto* const first = reinterpret_cast<const std::uint8_t*>(array.data.get());
-    if (array.dtype == "BOOL") {
-      for (std::size_t i = 0; i < array.bytes; ++i) require_count(name, first[i], 0, 1);
-    }
-    const auto* const type = std::find_if(std::begin(kTypes), std::end(kTypes),
-                                          [&](const Type& t) { return array.dtype == t.dtype; });
-    const std::vector<py::ssize_t> shape(array.shape.begin(), array.shape.end());
-    const py::object values = numpy_array(name, py::dtype(type->numpy), shape, first);
-    result[py::str(name)] = shape.empty() ? py::object(values.attr("item")()) : values;
-  }
-  return result;
 }
 
 // --- agents written in Python --------------------------------------------------------------------
@@ -200,7 +168,7 @@ class PythonAgent final : public Agent {
       return state_from(agent_);
     }
     throw InvalidValue("agent", shown(agent_),
-                       "a Learner, a RandomAgent, or an agent with state() and a classmethod "
+                       "a Learner, an agent of devlearn's, or one with state() and a classmethod "
                        "from_state; save any other yourself, the trial with without_agent=True, "
                        "and give it to load as agent=");
   }
@@ -231,16 +199,104 @@ void require_own_methods(const py::object& agent, std::initializer_list<const ch
   }
 }
 
+// The T that a Python object is. Of a derived class, the object lives as long.
+template <class T>
+std::shared_ptr<T> held(const py::object& object) {
+  if (py::type::of(object).is(py::type::of<T>())) return object.cast<std::shared_ptr<T>>();
+  const std::shared_ptr<py::object> owner(new py::object(object), [](const py::object* owned) {
+    const Gil gil;
+    delete owned;
+  });
+  return {owner, object.cast<T*>()};
+}
+
+// One of devlearn's own, or null.
+template <class... A>
+std::shared_ptr<Agent> as_own(const py::object& agent, Agents<A...>) {
+  std::shared_ptr<Agent> own;
+  const auto is = [&](auto* type) {
+    using T = std::remove_pointer_t<decltype(type)>;
+    if (!py::isinstance<T>(agent)) return false;
+    require_own_methods<T>(agent, {"choose", "observe"});
+    own = held<T>(agent);
+    return true;
+  };
+  static_cast<void>((is(static_cast<A*>(nullptr)) || ...));
+  return own;
+}
+
+// The same object as it was, or nothing.
+template <class... A>
+py::object own_object(const std::shared_ptr<Agent>& agent, Agents<A...>) {
+  py::object object;
+  const auto is = [&](auto* type) {
+    const auto own = std::dynamic_pointer_cast<std::remove_pointer_t<decltype(type)>>(agent);
+    if (own) object = py::cast(own);
+    return own != nullptr;
+  };
+  static_cast<void>((is(static_cast<A*>(nullptr)) || ...));
+  return object;
+}
+
+template <class... A>
+py::handle own_type(const Agent& agent, Agents<A...>) {
+  py::handle type;
+  static_cast<void>(
+      ((dynamic_cast<const A*>(&agent) != nullptr && (type = py::type::handle_of<A>(), true)) ||
+       ...));
+  return type;
+}
+
 }  // namespace
 
-std::shared_ptr<Agent> as_agent(const py::object& agent) {
-  if (py::isinstance<RandomAgent>(agent)) {
-    require_own_methods<RandomAgent>(agent, {"choose", "observe"});
-    return agent.cast<std::shared_ptr<RandomAgent>>();
+py::dict dict_of(const AgentState& state) {
+  py::dict result;
+  for (const auto& [name, text] : state.texts) result[py::str(name)] = py::str(text);
+  for (const auto& [name, array] : state.arrays) {
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(array.data.get());
+    if (array.dtype == "BOOL") {
+      for (std::size_t i = 0; i < array.bytes; ++i) require_count(name, first[i], 0, 1);
+    }
+    const auto* const type = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                          [&](const Type& t) { return array.dtype == t.dtype; });
+    const std::vector<py::ssize_t> shape(array.shape.begin(), array.shape.end());
+    const py::object values = numpy_array(name, py::dtype(type->numpy), shape, first);
+    result[py::str(name)] = shape.empty() ? py::object(values.attr("item")()) : values;
   }
+  return result;
+}
+
+AgentState state_of_dict(const std::string& kind, const py::dict& dict) {
+  AgentState state;
+  state.kind = kind;
+  for (const auto& [key, value] : dict) {
+    const std::string shown_key = shown(key);
+    if (!py::isinstance<py::str>(key)) {
+      throw InvalidValue("agent.state()", shown_key, "a name that is a str");
+    }
+    const std::string name = text_from("agent.state()", key);
+    if (py::isinstance<py::str>(value)) {
+      state.texts[name] = text_from("agent.state()[" + shown_key + "]", value);
+    } else {
+      state.arrays[name] = array_from(shown_key, py::reinterpret_borrow<py::object>(value));
+    }
+  }
+  return state;
+}
+
+const char* own_name(const Agent& agent) {
+  const py::handle type = own_type(agent, OwnAgents());
+  if (!type) return nullptr;
+  const char* const name = reinterpret_cast<PyTypeObject*>(type.ptr())->tp_name;
+  const char* const dot = std::strrchr(name, '.');
+  return dot == nullptr ? name : dot + 1;
+}
+
+std::shared_ptr<Agent> as_agent(const py::object& agent) {
+  if (const auto own = as_own(agent, OwnAgents())) return own;
   if (py::isinstance<Learner>(agent) && !py::hasattr(agent, "observe")) {
     require_own_methods<Learner>(agent, {"choose", "learn"});
-    return std::make_shared<LearnerAgent>(agent.cast<std::shared_ptr<Learner>>());
+    return std::make_shared<LearnerAgent>(held<Learner>(agent));
   }
   return std::make_shared<PythonAgent>(agent);
 }
@@ -250,7 +306,7 @@ py::object agent_of(const Trial& trial) {
     return python->object();
   }
   if (const auto learner = trial.learner()) return py::cast(learner);
-  return py::cast(std::dynamic_pointer_cast<RandomAgent>(trial.agent()));
+  return own_object(trial.agent(), OwnAgents());
 }
 
 LoadOptions load_options(const py::object& agent) {

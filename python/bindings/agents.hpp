@@ -1,9 +1,26 @@
 #pragma once
 
 #include "bindings.hpp"
+#include "devlearn/dyna_q.hpp"
+#include "devlearn/expected_sarsa.hpp"
+#include "devlearn/lrta_star.hpp"
+#include "devlearn/prioritized_sweeping.hpp"
+#include "devlearn/q_learning.hpp"
+#include "devlearn/r_max.hpp"
+#include "devlearn/random_agent.hpp"
+#include "devlearn/sarsa_lambda.hpp"
 #include "devlearn/trial_snapshot.hpp"
 
 namespace devlearn::python {
+
+template <class... A>
+struct Agents {};
+/// devlearn's agents that are the same object in Python and in C++.
+using OwnAgents = Agents<RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, DynaQ,
+                         PrioritizedSweeping, LrtaStar, RMax>;
+
+/// The class of one of them, without its module; null for any other.
+const char* own_name(const Agent& agent);
 
 /// Whoever Python names as a trial's agent.
 std::shared_ptr<Agent> as_agent(const py::object& agent);
@@ -12,5 +29,10 @@ py::object agent_of(const Trial& trial);
 /// Who goes on in a trial that is loaded: None for the agent in the file, an agent, or a class that
 /// makes one by from_state.
 LoadOptions load_options(const py::object& agent);
+
+/// A state's texts and arrays as a dict, arrays without dimensions as numbers.
+py::dict dict_of(const AgentState& state);
+/// The reverse. Throws InvalidValue for what no array can hold.
+AgentState state_of_dict(const std::string& kind, const py::dict& dict);
 
 }  // namespace devlearn::python

@@ -39,6 +39,7 @@ void bind_world(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_record(py::module_& m);
 void bind_agents(py::module_& m);
+void bind_value_agents(py::module_& m);
 void bind_trial(py::module_& m);
 void bind_trial_snapshot(py::module_& m);
 void bind_file(py::module_& m);

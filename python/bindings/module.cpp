@@ -20,6 +20,7 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_robot(m);
   devlearn::python::bind_record(m);
   devlearn::python::bind_agents(m);
+  devlearn::python::bind_value_agents(m);
   devlearn::python::bind_trial(m);
   devlearn::python::bind_trial_snapshot(m);
   devlearn::python::explain_wrong_calls(m);

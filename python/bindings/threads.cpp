@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "agents.hpp"
 #include "bindings.hpp"
-#include "devlearn/random_agent.hpp"
 #include "devlearn/trial.hpp"
 
 namespace devlearn::python {
@@ -183,8 +183,8 @@ InHand::InHand(const Trial& trial, For what) : InHand() {
   take(&trial, "Trial", what);
   if (const auto learner = trial.learner()) {
     take(learner.get(), "Learner", what);
-  } else if (dynamic_cast<const RandomAgent*>(trial.agent().get()) != nullptr) {
-    take(trial.agent().get(), "RandomAgent", what);
+  } else if (const char* const own = own_name(*trial.agent())) {
+    take(trial.agent().get(), own, what);
   }
 }
 

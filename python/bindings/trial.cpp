@@ -142,17 +142,16 @@ void bind_trial(py::module_& m) {
       "The closed loop: world -> sense -> situation -> choice -> motion -> evaluation ->\n"
       "development -> record.\n\n"
       "Parameters: world; config, a TrialConfig (None: the paper's); seed of the learner's draws;\n"
-      "agent: None for a new paper's learner, a Learner (shared, not copied), a RandomAgent, or "
-      "any\n"
-      "object with choose(observation) -> motion index or Choice, and observe(outcome). If it has\n"
-      "them, these are called, too: begin_round(), before the first choice of a round;\n"
-      "end_round(arrived), True where path learning arrives, False where the next round begins;\n"
-      "cancel(), where its motion was refused. With state() -> dict of arrays and a classmethod\n"
-      "from_state(dict) it is saved with the trial. Raises InvalidValue.\n\n"
+      "agent: None for a new paper's learner, a Learner (shared, not copied), a RandomAgent, one\n"
+      "of devlearn.agents, or any object with choose(observation) -> motion index or Choice, and\n"
+      "observe(outcome). If it has them, these are called, too: begin_round(), before the first\n"
+      "choice of a round; end_round(arrived), True where path learning arrives, False where the\n"
+      "next round begins; cancel(), where its motion was refused. With state() -> dict of arrays\n"
+      "and a classmethod from_state(dict) it is saved with the trial. Raises InvalidValue.\n\n"
       "A phase that Ctrl-C or an exception ends leaves what it finished in `interrupted`. Trials "
       "in\n"
-      "several threads run at once. A trial that one thread runs, its learner, and a RandomAgent\n"
-      "are refused to others meanwhile, and for good to a child forked then.");
+      "several threads run at once. A trial that one thread runs, its learner, and its agent of\n"
+      "devlearn's are refused to others meanwhile, and for good to a child forked then.");
   cls.attr("interrupted") = py::none();
   cls.def(py::init([](const World& world, const std::optional<TrialConfig>& given,
                       Whole<SeedTag> seed, const py::object& agent) {

@@ -91,7 +91,7 @@ void bind_trial_snapshot(py::module_& m) {
          "Writes a snapshot (safetensors layout): world, configuration, seed, pose, round and "
          "agent "
          "with its generator, and a Record if one is given, which Record.load reads. To the side "
-         "first, flushed, then renamed. Of agents a Learner and a RandomAgent are saved, and one "
+         "first, flushed, then renamed. Of agents devlearn's own are saved, and one "
          "with state() -> dict of str, numbers and numpy arrays, whose class has from_state(dict); "
          "any other only by its owner: then save the trial `without_agent`. Raises FileError, "
          "InvalidValue.")

@@ -15,20 +15,34 @@ import typing
 __all__: list[str] = [
     "ChoiceTrace",
     "Circle",
+    "DynaQ",
+    "DynaQConfig",
     "Event",
+    "ExpectedSarsa",
+    "ExpectedSarsaConfig",
     "Explanation",
     "Kind",
     "Learner",
     "LearnerConfig",
+    "LrtaStar",
+    "LrtaStarConfig",
     "MemoryUse",
     "Observation",
     "Outcome",
     "Polygon",
+    "PrioritizedSweeping",
+    "PrioritizedSweepingConfig",
+    "QLearning",
+    "QLearningConfig",
+    "RMax",
+    "RMaxConfig",
     "Random",
     "RandomAgent",
     "Rectangle",
     "Robot",
     "RobotDef",
+    "SarsaLambda",
+    "SarsaLambdaConfig",
     "ShortestPath",
     "SituationGrid",
     "SituationMemory",
@@ -1322,6 +1336,827 @@ class RandomAgent:
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
 
+class QLearningConfig:
+    """
+    The settings of QLearning.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    alpha
+        alpha: step size; in (0, 1].
+    gamma
+        gamma: discount rate; in [0, 1].
+    epsilon
+        epsilon: probability of a random motion instead of a greedy one; in [0, 1].
+    first_value
+        Q_0: Q of a situation when it is first met: initial_value, or less the estimate of the cost
+        to go; 'constant' or 'estimate'.
+    initial_value
+        Q of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+    shaping
+        Phi: potential by which rewards are shaped: none, SEF, or less the estimate; 'none' or 'sef'
+        or 'estimate'.
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> QLearningConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        alpha: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        gamma: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        epsilon: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        first_value: str = "constant",
+        initial_value: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        shaping: str = "none",
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> QLearningConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        alpha: step size; in (0, 1].
+        """
+    @property
+    def epsilon(self) -> float:
+        """
+        epsilon: probability of a random motion instead of a greedy one; in [0, 1].
+        """
+    @property
+    def first_value(self) -> str:
+        """
+        Q_0: Q of a situation when it is first met: initial_value, or less the estimate of the cost to go; 'constant' or 'estimate'.
+        """
+    @property
+    def gamma(self) -> float:
+        """
+        gamma: discount rate; in [0, 1].
+        """
+    @property
+    def initial_value(self) -> float:
+        """
+        Q of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+        """
+    @property
+    def shaping(self) -> str:
+        """
+        Phi: potential by which rewards are shaped: none, SEF, or less the estimate; 'none' or 'sef' or 'estimate'.
+        """
+
+class QLearning:
+    """
+    Q-learning (Watkins 1989; Sutton & Barto 6.5), epsilon-greedy:
+
+    Q(S, A) <- Q(S, A) + alpha (R + gamma max_a Q(S', a) - Q(S, A)).
+
+    In a trial: Trial(world, agent=QLearning()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, a QLearningConfig, also QLearning.Config (None: the defaults); seed of its draws.
+    Raises InvalidValue.
+    """
+
+    Config = QLearningConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, config: QLearningConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
+        """
+        The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> QLearningConfig:
+        """
+        Its settings.
+        """
+
+class ExpectedSarsaConfig:
+    """
+    The settings of ExpectedSarsa.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    alpha
+        alpha: step size; in (0, 1].
+    gamma
+        gamma: discount rate; in [0, 1].
+    epsilon
+        epsilon: probability of a random motion instead of a greedy one; in [0, 1].
+    first_value
+        Q_0: Q of a situation when it is first met: initial_value, or less the estimate of the cost
+        to go; 'constant' or 'estimate'.
+    initial_value
+        Q of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+    shaping
+        Phi: potential by which rewards are shaped: none, SEF, or less the estimate; 'none' or 'sef'
+        or 'estimate'.
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> ExpectedSarsaConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        alpha: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        gamma: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        epsilon: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        first_value: str = "constant",
+        initial_value: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        shaping: str = "none",
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> ExpectedSarsaConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        alpha: step size; in (0, 1].
+        """
+    @property
+    def epsilon(self) -> float:
+        """
+        epsilon: probability of a random motion instead of a greedy one; in [0, 1].
+        """
+    @property
+    def first_value(self) -> str:
+        """
+        Q_0: Q of a situation when it is first met: initial_value, or less the estimate of the cost to go; 'constant' or 'estimate'.
+        """
+    @property
+    def gamma(self) -> float:
+        """
+        gamma: discount rate; in [0, 1].
+        """
+    @property
+    def initial_value(self) -> float:
+        """
+        Q of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+        """
+    @property
+    def shaping(self) -> str:
+        """
+        Phi: potential by which rewards are shaped: none, SEF, or less the estimate; 'none' or 'sef' or 'estimate'.
+        """
+
+class ExpectedSarsa:
+    """
+    Expected SARSA (Sutton & Barto 6.6) under its epsilon-greedy policy pi:
+
+    Q(S, A) <- Q(S, A) + alpha (R + gamma sum_a pi(a | S') Q(S', a) - Q(S, A)).
+
+    In a trial: Trial(world, agent=ExpectedSarsa()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, a ExpectedSarsaConfig, also ExpectedSarsa.Config (None: the defaults); seed of its draws.
+    Raises InvalidValue.
+    """
+
+    Config = ExpectedSarsaConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, config: ExpectedSarsaConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
+        """
+        The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> ExpectedSarsaConfig:
+        """
+        Its settings.
+        """
+
+class SarsaLambdaConfig:
+    """
+    The settings of SarsaLambda.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    alpha
+        alpha: step size; in (0, 1].
+    gamma
+        gamma: discount rate; in [0, 1].
+    epsilon
+        epsilon: probability of a random motion instead of a greedy one; in [0, 1].
+    first_value
+        Q_0: Q of a situation when it is first met: initial_value, or less the estimate of the cost
+        to go; 'constant' or 'estimate'.
+    initial_value
+        Q of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+    shaping
+        Phi: potential by which rewards are shaped: none, SEF, or less the estimate; 'none' or 'sef'
+        or 'estimate'.
+    trace_decay
+        lambda: trace-decay parameter: how far back an outcome is learned from; 0 is SARSA; in [0,
+        1].
+    traces
+        What a visit makes of an eligibility trace: one more, or 1; 'accumulating' or 'replacing'.
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> SarsaLambdaConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        alpha: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        gamma: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        epsilon: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        first_value: str = "constant",
+        initial_value: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        shaping: str = "none",
+        trace_decay: typing.SupportsFloat | typing.SupportsIndex = 0.9,
+        traces: str = "accumulating",
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> SarsaLambdaConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        alpha: step size; in (0, 1].
+        """
+    @property
+    def epsilon(self) -> float:
+        """
+        epsilon: probability of a random motion instead of a greedy one; in [0, 1].
+        """
+    @property
+    def first_value(self) -> str:
+        """
+        Q_0: Q of a situation when it is first met: initial_value, or less the estimate of the cost to go; 'constant' or 'estimate'.
+        """
+    @property
+    def gamma(self) -> float:
+        """
+        gamma: discount rate; in [0, 1].
+        """
+    @property
+    def initial_value(self) -> float:
+        """
+        Q of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+        """
+    @property
+    def shaping(self) -> str:
+        """
+        Phi: potential by which rewards are shaped: none, SEF, or less the estimate; 'none' or 'sef' or 'estimate'.
+        """
+    @property
+    def trace_decay(self) -> float:
+        """
+        lambda: trace-decay parameter: how far back an outcome is learned from; 0 is SARSA; in [0, 1].
+        """
+    @property
+    def traces(self) -> str:
+        """
+        What a visit makes of an eligibility trace: one more, or 1; 'accumulating' or 'replacing'.
+        """
+
+class SarsaLambda:
+    """
+    SARSA(lambda), tabular and epsilon-greedy (Sutton & Barto 12.7); SARSA where trace_decay is
+    0. A motion is learned about once the next one has run.
+
+    In a trial: Trial(world, agent=SarsaLambda()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, a SarsaLambdaConfig, also SarsaLambda.Config (None: the defaults); seed of its draws.
+    Raises InvalidValue.
+    """
+
+    Config = SarsaLambdaConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, config: SarsaLambdaConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
+        """
+        The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> SarsaLambdaConfig:
+        """
+        Its settings.
+        """
+
+class DynaQConfig:
+    """
+    The settings of DynaQ.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    alpha
+        alpha: step size; in (0, 1].
+    gamma
+        gamma: discount rate; in [0, 1].
+    epsilon
+        epsilon: probability of a random motion instead of a greedy one; in [0, 1].
+    first_value
+        Q_0: Q of a situation when it is first met: initial_value, or less the estimate of the cost
+        to go; 'constant' or 'estimate'.
+    initial_value
+        Q of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+    shaping
+        Phi: potential by which rewards are shaped: none, SEF, or less the estimate; 'none' or 'sef'
+        or 'estimate'.
+    planning_steps
+        n: steps of planning after each real one; a whole number in [0, 1000000].
+    kappa
+        kappa: bonus of Dyna-Q+: planning adds kappa sqrt(tau) to the reward of a motion not tried
+        for tau steps; 0 is Dyna-Q; in [0, 1e+06].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> DynaQConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        alpha: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        gamma: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        epsilon: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        first_value: str = "constant",
+        initial_value: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        shaping: str = "none",
+        planning_steps: typing.SupportsIndex = 10,
+        kappa: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> DynaQConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        alpha: step size; in (0, 1].
+        """
+    @property
+    def epsilon(self) -> float:
+        """
+        epsilon: probability of a random motion instead of a greedy one; in [0, 1].
+        """
+    @property
+    def first_value(self) -> str:
+        """
+        Q_0: Q of a situation when it is first met: initial_value, or less the estimate of the cost to go; 'constant' or 'estimate'.
+        """
+    @property
+    def gamma(self) -> float:
+        """
+        gamma: discount rate; in [0, 1].
+        """
+    @property
+    def initial_value(self) -> float:
+        """
+        Q of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+        """
+    @property
+    def kappa(self) -> float:
+        """
+        kappa: bonus of Dyna-Q+: planning adds kappa sqrt(tau) to the reward of a motion not tried for tau steps; 0 is Dyna-Q; in [0, 1e+06].
+        """
+    @property
+    def planning_steps(self) -> int:
+        """
+        n: steps of planning after each real one; a whole number in [0, 1000000].
+        """
+    @property
+    def shaping(self) -> str:
+        """
+        Phi: potential by which rewards are shaped: none, SEF, or less the estimate; 'none' or 'sef' or 'estimate'.
+        """
+
+class DynaQ:
+    """
+    Tabular Dyna-Q (Sutton & Barto 8.2), epsilon-greedy: after each step of Q-learning,
+    planning_steps more from what came of each motion when it was last tried. With kappa > 0
+    Dyna-Q+ (8.3); then gamma should be below 1.
+
+    In a trial: Trial(world, agent=DynaQ()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, a DynaQConfig, also DynaQ.Config (None: the defaults); seed of its draws.
+    Raises InvalidValue.
+    """
+
+    Config = DynaQConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, config: DynaQConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
+        """
+        The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> DynaQConfig:
+        """
+        Its settings.
+        """
+
+class PrioritizedSweepingConfig:
+    """
+    The settings of PrioritizedSweeping.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    alpha
+        alpha: step size; in (0, 1].
+    gamma
+        gamma: discount rate; in [0, 1].
+    epsilon
+        epsilon: probability of a random motion instead of a greedy one; in [0, 1].
+    first_value
+        Q_0: Q of a situation when it is first met: initial_value, or less the estimate of the cost
+        to go; 'constant' or 'estimate'.
+    initial_value
+        Q of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+    shaping
+        Phi: potential by which rewards are shaped: none, SEF, or less the estimate; 'none' or 'sef'
+        or 'estimate'.
+    planning_steps
+        n: updates after each step, at most; a whole number in [0, 1000000].
+    theta
+        theta: what would change a value by no more than this is not queued; in [0, 1e+09].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> PrioritizedSweepingConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        alpha: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        gamma: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        epsilon: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        first_value: str = "constant",
+        initial_value: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        shaping: str = "none",
+        planning_steps: typing.SupportsIndex = 10,
+        theta: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> PrioritizedSweepingConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        alpha: step size; in (0, 1].
+        """
+    @property
+    def epsilon(self) -> float:
+        """
+        epsilon: probability of a random motion instead of a greedy one; in [0, 1].
+        """
+    @property
+    def first_value(self) -> str:
+        """
+        Q_0: Q of a situation when it is first met: initial_value, or less the estimate of the cost to go; 'constant' or 'estimate'.
+        """
+    @property
+    def gamma(self) -> float:
+        """
+        gamma: discount rate; in [0, 1].
+        """
+    @property
+    def initial_value(self) -> float:
+        """
+        Q of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+        """
+    @property
+    def planning_steps(self) -> int:
+        """
+        n: updates after each step, at most; a whole number in [0, 1000000].
+        """
+    @property
+    def shaping(self) -> str:
+        """
+        Phi: potential by which rewards are shaped: none, SEF, or less the estimate; 'none' or 'sef' or 'estimate'.
+        """
+    @property
+    def theta(self) -> float:
+        """
+        theta: what would change a value by no more than this is not queued; in [0, 1e+09].
+        """
+
+class PrioritizedSweeping:
+    """
+    Prioritized sweeping for a deterministic world (Moore & Atkeson 1993, as in Sutton & Barto
+    8.4), epsilon-greedy: after each step at most planning_steps updates of Q-learning from what
+    came of each motion when it was last tried, those first that change most.
+
+    In a trial: Trial(world, agent=PrioritizedSweeping()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, a PrioritizedSweepingConfig, also PrioritizedSweeping.Config (None: the defaults); seed of its draws.
+    Raises InvalidValue.
+    """
+
+    Config = PrioritizedSweepingConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, config: PrioritizedSweepingConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
+        """
+        The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> PrioritizedSweepingConfig:
+        """
+        Its settings.
+        """
+    @property
+    def updates(self) -> int:
+        """
+        How many updates there have been.
+        """
+
+class LrtaStarConfig:
+    """
+    The settings of LrtaStar.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    first_value
+        -h of a situation when it is first met: initial_value, or less the estimate of the cost to
+        go; 'constant' or 'estimate'.
+    initial_value
+        -h of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> LrtaStarConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        first_value: str = "estimate",
+        initial_value: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> LrtaStarConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def first_value(self) -> str:
+        """
+        -h of a situation when it is first met: initial_value, or less the estimate of the cost to go; 'constant' or 'estimate'.
+        """
+    @property
+    def initial_value(self) -> float:
+        """
+        -h of a situation when it is first met, where first_value is constant; in [-1e+09, 1e+09].
+        """
+
+class LrtaStar:
+    """
+    Learning real-time A* (Korf 1990): the motion of the least f(s, a) = cost + h(s'), of what
+    each led to when it was last tried, and h(s) <- min_a f(s, a). h is first the estimate of
+    the cost to go. A value is -f.
+
+    In a trial: Trial(world, agent=LrtaStar()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, a LrtaStarConfig, also LrtaStar.Config (None: the defaults); seed of its draws.
+    Raises InvalidValue.
+    """
+
+    Config = LrtaStarConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, config: LrtaStarConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
+        """
+        The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> LrtaStarConfig:
+        """
+        Its settings.
+        """
+
+class RMaxConfig:
+    """
+    The settings of RMax.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    m
+        m: times a motion is tried until it is known; a whole number in [1, 1000].
+    gamma
+        gamma: discount rate; in [0, 1].
+    first_value
+        Value of a motion that is not known: initial_value, or less the estimate of the cost to go;
+        'constant' or 'estimate'.
+    initial_value
+        Value of a motion that is not known, where first_value is constant; in [-1e+09, 1e+09].
+    theta
+        theta: changes of a value by no more than this are not planned on with; in (0, 1e+09].
+    least_value
+        Value of that from which nothing leads on; in [-1e+09, 0].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> RMaxConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        m: typing.SupportsIndex = 3,
+        gamma: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        first_value: str = "estimate",
+        initial_value: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        theta: typing.SupportsFloat | typing.SupportsIndex = 1e-06,
+        least_value: typing.SupportsFloat | typing.SupportsIndex = -1000.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> RMaxConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def first_value(self) -> str:
+        """
+        Value of a motion that is not known: initial_value, or less the estimate of the cost to go; 'constant' or 'estimate'.
+        """
+    @property
+    def gamma(self) -> float:
+        """
+        gamma: discount rate; in [0, 1].
+        """
+    @property
+    def initial_value(self) -> float:
+        """
+        Value of a motion that is not known, where first_value is constant; in [-1e+09, 1e+09].
+        """
+    @property
+    def least_value(self) -> float:
+        """
+        Value of that from which nothing leads on; in [-1e+09, 0].
+        """
+    @property
+    def m(self) -> int:
+        """
+        m: times a motion is tried until it is known; a whole number in [1, 1000].
+        """
+    @property
+    def theta(self) -> float:
+        """
+        theta: changes of a value by no more than this are not planned on with; in (0, 1e+09].
+        """
+
+class RMax:
+    """
+    R-max (Brafman & Tennenholtz 2002): a motion is known in a situation once it was tried m
+    times there; one that is not is worth its first value. The best plan under that is followed.
+
+    In a trial: Trial(world, agent=RMax()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, a RMaxConfig, also RMax.Config (None: the defaults); seed of its draws.
+    Raises InvalidValue.
+    """
+
+    Config = RMaxConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, config: RMaxConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
+        """
+        The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
+        """
+    def visits(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> int:
+        """
+        How often a motion was tried in a situation, at most m: then it is known. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> RMaxConfig:
+        """
+        Its settings.
+        """
+
 class TrialConfig:
     """
     Everything a trial needs besides the world and the seed; the defaults are the paper's.
@@ -1438,16 +2273,16 @@ class Trial:
     development -> record.
 
     Parameters: world; config, a TrialConfig (None: the paper's); seed of the learner's draws;
-    agent: None for a new paper's learner, a Learner (shared, not copied), a RandomAgent, or any
-    object with choose(observation) -> motion index or Choice, and observe(outcome). If it has
-    them, these are called, too: begin_round(), before the first choice of a round;
-    end_round(arrived), True where path learning arrives, False where the next round begins;
-    cancel(), where its motion was refused. With state() -> dict of arrays and a classmethod
-    from_state(dict) it is saved with the trial. Raises InvalidValue.
+    agent: None for a new paper's learner, a Learner (shared, not copied), a RandomAgent, one
+    of devlearn.agents, or any object with choose(observation) -> motion index or Choice, and
+    observe(outcome). If it has them, these are called, too: begin_round(), before the first
+    choice of a round; end_round(arrived), True where path learning arrives, False where the
+    next round begins; cancel(), where its motion was refused. With state() -> dict of arrays
+    and a classmethod from_state(dict) it is saved with the trial. Raises InvalidValue.
 
     A phase that Ctrl-C or an exception ends leaves what it finished in `interrupted`. Trials in
-    several threads run at once. A trial that one thread runs, its learner, and a RandomAgent
-    are refused to others meanwhile, and for good to a child forked then.
+    several threads run at once. A trial that one thread runs, its learner, and its agent of
+    devlearn's are refused to others meanwhile, and for good to a child forked then.
     """
 
     interrupted: devlearn.record.Record | None
@@ -1549,7 +2384,7 @@ class Trial:
         self, path: typing.Any, record: typing.Any = None, *, without_agent: bool = False
     ) -> None:
         """
-        Writes a snapshot (safetensors layout): world, configuration, seed, pose, round and agent with its generator, and a Record if one is given, which Record.load reads. To the side first, flushed, then renamed. Of agents a Learner and a RandomAgent are saved, and one with state() -> dict of str, numbers and numpy arrays, whose class has from_state(dict); any other only by its owner: then save the trial `without_agent`. Raises FileError, InvalidValue.
+        Writes a snapshot (safetensors layout): world, configuration, seed, pose, round and agent with its generator, and a Record if one is given, which Record.load reads. To the side first, flushed, then renamed. Of agents devlearn's own are saved, and one with state() -> dict of str, numbers and numpy arrays, whose class has from_state(dict); any other only by its owner: then save the trial `without_agent`. Raises FileError, InvalidValue.
         """
     def step(self) -> Step:
         """

@@ -21,6 +21,7 @@ from devlearn import (
     Trial,
     TrialConfig,
     World,
+    agents,
 )
 
 
@@ -665,7 +666,7 @@ def test_a_generator_goes_on_from_its_state():
 def test_the_guides_code_runs_and_its_agent_is_saved_as_it_stands(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     guide = (pathlib.Path(__file__).parents[2] / "docs" / "agents.md").read_text(encoding="utf-8")
-    agent, long_run = re.findall(r"```python\n(.*?)```", guide, re.DOTALL)
+    agent, textbook, long_run = re.findall(r"```python\n(.*?)```", guide, re.DOTALL)
     names = {}
     exec(long_run, names)
     assert 0 < names["records"][0].rounds["steps"][0] < 10**9
@@ -673,6 +674,8 @@ def test_the_guides_code_runs_and_its_agent_is_saved_as_it_stands(tmp_path, monk
     trial, again = names["trial"], names["again"]
     assert (again.agent.values == trial.agent.values).all()
     assert differences(again.run(200), trial.run(200)) == []
+    exec(textbook, names)
+    assert names["agent"].value(int(names["paths"].situation[0]), 2) < 0.0
 
 
 # --- motions that are not allowed ---
@@ -747,7 +750,7 @@ def test_an_agent_sees_what_is_allowed_and_is_refused_what_is_not():
     assert list(seen[-1].allowed) == list(devlearn.Robot(world, robot).allowed(pose))
 
 
-@pytest.mark.parametrize("base", [Learner, RandomAgent])
+@pytest.mark.parametrize("base", [Learner, RandomAgent, agents.QLearning, agents.RMax])
 def test_a_learner_whose_choice_is_redefined_is_refused_as_it_would_not_be_asked(base):
     class Own(base):
         def choose(self, *_):

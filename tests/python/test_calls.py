@@ -16,6 +16,7 @@ from devlearn import (
     World,
     WrongType,
     _core,
+    agents,
 )
 
 WORLD = World.load("empty")
@@ -129,6 +130,7 @@ def public():
         "StateEvaluation": devlearn.StateEvaluation(), "LearnerConfig": LearnerConfig(),
         "TrialConfig": TrialConfig(), "RobotDef": devlearn.RobotDef(),
         "RandomAgent": devlearn.RandomAgent(),
+        **{name: getattr(agents, name)() for name in agents.__all__},
     }  # fmt: skip
     for name in dir(_core):
         thing = getattr(_core, name)

@@ -11,13 +11,31 @@ from pathlib import Path
 import devlearn
 import numpy as np
 import pytest
-from devlearn import LearnerConfig, Record, RobotDef, StateEvaluation, TrialConfig, _core
+from devlearn import LearnerConfig, Record, RobotDef, StateEvaluation, TrialConfig, _core, agents
 from devlearn.record import POSE_COLUMNS, STEP_COLUMNS
 
 SOURCE = Path(__file__).parents[2]
-CONFIGS = [LearnerConfig, StateEvaluation, RobotDef, TrialConfig]
+CONFIGS = [
+    LearnerConfig, StateEvaluation, RobotDef, TrialConfig, agents.QLearning.Config,
+    agents.ExpectedSarsa.Config, agents.SarsaLambda.Config, agents.DynaQ.Config,
+    agents.PrioritizedSweeping.Config, agents.LrtaStar.Config, agents.RMax.Config,
+]  # fmt: skip
 each_config = pytest.mark.parametrize("kind", CONFIGS)
 NO, WHOLE = "", "a whole number in [{}, {}]"
+
+FIRST_VALUES = {
+    "first_value": ("", NO, "'constant' or 'estimate'", "estimate"),
+    "initial_value": (NO, NO, "in [-1e+09, 1e+09]", 0.0),
+}
+# As Sutton & Barto have them.
+VALUES = {
+    "alpha": ("alpha", NO, "in (0, 1]", 0.5),
+    "gamma": ("gamma", NO, "in [0, 1]", 1.0),
+    "epsilon": ("epsilon", NO, "in [0, 1]", 0.1),
+    "first_value": ("Q_0", NO, "'constant' or 'estimate'", "constant"),
+    "initial_value": (NO, NO, "in [-1e+09, 1e+09]", 0.0),
+    "shaping": ("Phi", NO, "'none' or 'sef' or 'estimate'", "none"),
+}
 
 # As the method and the guides have them: symbol, unit, range, default.
 EXPECTED = {
@@ -63,6 +81,32 @@ EXPECTED = {
         "cell_size": (NO, "m", "in [0.001, 1000] m", 0.25),
         "heading_bins": (NO, NO, WHOLE.format(1, 3600), 12),
     },
+    agents.QLearning.Config: VALUES,
+    agents.ExpectedSarsa.Config: VALUES,
+    agents.SarsaLambda.Config: VALUES
+    | {
+        "trace_decay": ("lambda", NO, "in [0, 1]", 0.9),
+        "traces": (NO, NO, "'accumulating' or 'replacing'", "accumulating"),
+    },
+    agents.DynaQ.Config: VALUES
+    | {
+        "planning_steps": ("n", NO, WHOLE.format(0, 1000000), 10),
+        "kappa": ("kappa", NO, "in [0, 1e+06]", 0.0),
+    },
+    agents.PrioritizedSweeping.Config: VALUES
+    | {
+        "alpha": ("alpha", NO, "in (0, 1]", 1.0),
+        "planning_steps": ("n", NO, WHOLE.format(0, 1000000), 10),
+        "theta": ("theta", NO, "in [0, 1e+09]", 1e-4),
+    },
+    agents.LrtaStar.Config: FIRST_VALUES,
+    agents.RMax.Config: {
+        "m": ("m", NO, WHOLE.format(1, 1000), 3),
+        "gamma": ("gamma", NO, "in [0, 1]", 1.0),
+        **FIRST_VALUES,
+        "theta": ("theta", NO, "in (0, 1e+09]", 1e-6),
+        "least_value": (NO, NO, "in [-1e+09, 0]", -1000.0),
+    },
 }
 
 
@@ -99,13 +143,16 @@ def other(value):
     if isinstance(value, list):
         return [1.5 * each for each in value]
     if isinstance(value, str):
-        names = {"abandon": "weaken", "retry": "wander", "geometric": "sonar"}
+        names = {
+            "abandon": "weaken", "retry": "wander", "geometric": "sonar", "constant": "estimate",
+            "estimate": "constant", "none": "sef", "accumulating": "replacing",
+        }  # fmt: skip
         return names[value]
     if hasattr(value, "fields"):
         changes = {name: other(field["default"]) for name, field in value.fields().items()}
         changes.pop("motion_count", None)  # is the number of steering angles
         return type(value)(**changes)
-    return 0.15 if value is None else 1.5 * value
+    return 0.15 if value is None else 0.5 * value or 0.5
 
 
 @each_config
@@ -120,7 +167,7 @@ def test_every_field_is_compared_replaced_and_survives_dict_json_repr_pickle_and
             kind().replace(**fields),
             kind.from_dict(fields),
             kind.from_dict(json.loads(json.dumps(changed.to_dict()))),
-            eval(repr(changed), vars(devlearn)),
+            eval(repr(changed), {**vars(devlearn), **vars(agents)}),
             pickle.loads(pickle.dumps(changed)),
             copy.deepcopy(changed),
         ):

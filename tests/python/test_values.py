@@ -6,7 +6,7 @@ import pickle
 import devlearn
 import numpy as np
 import pytest
-from devlearn import Robot, RobotDef, Trial, World, _core
+from devlearn import Robot, RobotDef, Trial, World, _core, agents
 
 
 class Keeper:
@@ -28,6 +28,9 @@ def kept():
     return keeper
 
 
+VALUE_AGENTS = [getattr(agents, name) for name in agents.__all__ if not name.endswith("Config")]
+
+
 def things():
     world = World.load("paper")
     trial = Trial(world, seed=1)
@@ -44,6 +47,7 @@ def things():
             devlearn.Polygon([(1, 1), (2, 1), (2, 2)]), devlearn.StateEvaluation(),
             devlearn.LearnerConfig(), devlearn.TrialConfig(), trial.learner.situation(760),
             trial.learner.memory_use, keeper.observation, keeper.outcome, trial.run(3),
+            *(agent.Config() for agent in VALUE_AGENTS),
         )
     }  # fmt: skip
 
@@ -73,12 +77,23 @@ def test_what_differs_is_not_equal():
     assert trial.learner.explain(0) != trial.learner.explain(1)
 
 
-@pytest.mark.parametrize("name", [*THINGS, "Learner", "Trial", "RandomAgent", "ShortestPath"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *THINGS,
+        "Learner",
+        "Trial",
+        "RandomAgent",
+        "ShortestPath",
+        *(a.__name__ for a in VALUE_AGENTS),
+    ],
+)
 def test_its_repr_says_more_than_where_it_lies(name):
     world = World.load("paper")
     more = {
         "Learner": devlearn.Learner(), "Trial": Trial(world), "RandomAgent": devlearn.RandomAgent(),
         "ShortestPath": devlearn.shortest_path(Robot(world)),
+        **{agent.__name__: agent() for agent in VALUE_AGENTS},
     }  # fmt: skip
     text = repr({**THINGS, **more}[name])
     assert name in text
@@ -105,4 +120,4 @@ def test_a_shape_that_cannot_be_is_refused_where_it_is_made(make, says):
 def test_every_class_of_the_module_is_among_these():
     classes = {n for n, c in vars(_core).items() if isinstance(c, type) and not n.startswith("_")}
     others = {"Kind", "Event", "Learner", "Trial", "RandomAgent", "ShortestPath", "SituationMemory"}
-    assert classes <= {*THINGS, *others}
+    assert classes <= {*THINGS, *others, *(agent.__name__ for agent in VALUE_AGENTS)}

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -125,6 +126,35 @@ TEST_CASE_TEMPLATE("the same seed gives the same history, another one another", 
   CHECK(Life(1).run(second, 500) == motions);
   CHECK(equal(*first.state(), *second.state()));
   CHECK(Life(1).run(third, 500) != motions);
+}
+
+TEST_CASE_TEMPLATE("a history and what was learned are the same to the bit on every machine", A,
+                   VALUE_AGENTS) {
+  A agent({}, 3);
+  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  const auto add = [&](std::uint64_t word) {
+    for (int byte = 0; byte < 8; ++byte) {
+      hash = (hash ^ (word >> (8 * byte) & 0xff)) * 0x100000001b3U;
+    }
+  };
+  for (const int motion : Life(1).run(agent, 2000)) add(static_cast<std::uint64_t>(motion));
+  for (int cell = 0; cell < 20; ++cell) {
+    for (int motion = 0; motion < 4; ++motion) {
+      const double value = agent.value(cell, motion).value_or(0.0);
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &value, sizeof bits);
+      add(bits);
+    }
+  }
+  const std::map<std::string, std::uint64_t> expected{
+      {QLearning::kKind, 0x566c98bec38fad15U},
+      {ExpectedSarsa::kKind, 0x3e2fc5041f4c60e2U},
+      {SarsaLambda::kKind, 0xb45edf4ff45f5f81U},
+      {DynaQ::kKind, 0x9156ea7652749624U},
+      {PrioritizedSweeping::kKind, 0x1768064541a4a3a5U},
+      {LrtaStar::kKind, 0x4345f55d48e0a6f9U},
+      {RMax::kKind, 0xec3ea2d76c0e6311U}};
+  CHECK(hash == expected.at(A::kKind));
 }
 
 TEST_CASE_TEMPLATE("what is made of a state goes on equal to the bit, within a step, too", A,

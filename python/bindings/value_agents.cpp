@@ -1,0 +1,110 @@
+#include <string>
+
+#include "agents.hpp"
+#include "bindings.hpp"
+#include "config.hpp"
+
+namespace devlearn::python {
+namespace {
+
+/// The class of agent A, which goes on from what it is told in a trial, and that of its settings.
+template <class A>
+py::class_<A, std::shared_ptr<A>> def_agent(py::module_& m, const std::string& name,
+                                            const std::string& about) {
+  using Config = typename A::Config;
+  const py::object config = def_config<Config>(m, "The settings of " + name + ".");
+  const std::string doc =
+      about + "\n\nIn a trial: Trial(world, agent=" + name +
+      "()). It is saved with its trial, pickled and copied.\n\nParameters: config, a " + name +
+      "Config, also " + name +
+      ".Config (None: the defaults); seed of its draws.\nRaises InvalidValue.";
+  py::class_<A, std::shared_ptr<A>> cls(m, name.c_str(), doc.c_str());
+  cls.attr("Config") = config;
+  cls.def(py::init([](const std::optional<Config>& given, Whole<SeedTag> seed) {
+            return std::make_shared<A>(given.value_or(Config{}), seed.value);
+          }),
+          py::arg("config") = py::none(), py::arg("seed") = 0)
+      .def_property_readonly(
+          "config", [](const A& self) { return self.config(); }, "Its settings.")
+      .def(
+          "value",
+          [](const A& self, Whole<SituationTag> situation, Whole<MotionTag> motion) {
+            require_free(&self, own_name(self), InHand::For::kReading);
+            return self.value(situation.value, motion.value);
+          },
+          py::arg("situation"), py::arg("motion"),
+          "The value of a motion in a situation; None for a situation never met. Raises "
+          "InvalidValue.")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("<devlearn.agents.{}: {!r}>")
+            .format(py::type::of(self).attr("__name__"), self.attr("config"));
+      });
+  def_pickling_by_state(
+      cls,
+      [](const A& self) {
+        require_free(&self, own_name(self), InHand::For::kReading);
+        return dict_of(*self.state());
+      },
+      [](const py::object& state) {
+        if (!py::isinstance<py::dict>(state)) {
+          throw InvalidValue("state", shown(state), "a dict, as pickle writes it");
+        }
+        return A(state_of_dict(A::kKind, state.cast<py::dict>()), "state");
+      });
+  return cls;
+}
+
+}  // namespace
+
+void bind_value_agents(py::module_& m) {
+  def_agent<QLearning>(m, "QLearning",
+                       "Q-learning (Watkins 1989; Sutton & Barto 6.5), epsilon-greedy:\n\n"
+                       "Q(S, A) <- Q(S, A) + alpha (R + gamma max_a Q(S', a) - Q(S, A)).");
+  def_agent<ExpectedSarsa>(
+      m, "ExpectedSarsa",
+      "Expected SARSA (Sutton & Barto 6.6) under its epsilon-greedy policy pi:\n\n"
+      "Q(S, A) <- Q(S, A) + alpha (R + gamma sum_a pi(a | S') Q(S', a) - Q(S, A)).");
+  def_agent<SarsaLambda>(m, "SarsaLambda",
+                         "SARSA(lambda), tabular and epsilon-greedy (Sutton & Barto 12.7); SARSA "
+                         "where trace_decay is\n"
+                         "0. A motion is learned about once the next one has run.");
+  def_agent<DynaQ>(
+      m, "DynaQ",
+      "Tabular Dyna-Q (Sutton & Barto 8.2), epsilon-greedy: after each step of Q-learning,\n"
+      "planning_steps more from what came of each motion when it was last tried. With kappa > 0\n"
+      "Dyna-Q+ (8.3); then gamma should be below 1.");
+  def_agent<PrioritizedSweeping>(
+      m, "PrioritizedSweeping",
+      "Prioritized sweeping for a deterministic world (Moore & Atkeson 1993, as in Sutton & Barto\n"
+      "8.4), epsilon-greedy: after each step at most planning_steps updates of Q-learning from "
+      "what\n"
+      "came of each motion when it was last tried, those first that change most.")
+      .def_property_readonly(
+          "updates",
+          [](const PrioritizedSweeping& self) {
+            require_free(&self, own_name(self), InHand::For::kReading);
+            return self.updates();
+          },
+          "How many updates there have been.");
+  def_agent<LrtaStar>(
+      m, "LrtaStar",
+      "Learning real-time A* (Korf 1990): the motion of the least f(s, a) = cost + h(s'), of what\n"
+      "each led to when it was last tried, and h(s) <- min_a f(s, a). h is first the estimate of\n"
+      "the cost to go. A value is -f.");
+  def_agent<RMax>(
+      m, "RMax",
+      "R-max (Brafman & Tennenholtz 2002): a motion is known in a situation once it was tried m\n"
+      "times there; one that is not is worth its first value. The best plan under that is "
+      "followed.")
+      .def(
+          "visits",
+          [](const RMax& self, Whole<SituationTag> situation, Whole<MotionTag> motion) {
+            require_free(&self, own_name(self), InHand::For::kReading);
+            return self.visits(situation.value, motion.value);
+          },
+          py::arg("situation"), py::arg("motion"),
+          "How often a motion was tried in a situation, at most m: then it is known. Raises "
+          "InvalidValue.");
+}
+
+}  // namespace devlearn::python

@@ -1,0 +1,41 @@
+"""Textbook learners of values, as agents of a trial: what the paper's learner is measured against.
+
+from devlearn import Trial, World, agents
+
+agent = agents.QLearning(agents.QLearning.Config(alpha=0.5, first_value="estimate"), seed=1)
+paths = Trial(World.load("empty"), agent=agent).path_learning(rounds=50)
+"""
+
+from ._core import (
+    DynaQ,
+    DynaQConfig,
+    ExpectedSarsa,
+    ExpectedSarsaConfig,
+    LrtaStar,
+    LrtaStarConfig,
+    PrioritizedSweeping,
+    PrioritizedSweepingConfig,
+    QLearning,
+    QLearningConfig,
+    RMax,
+    RMaxConfig,
+    SarsaLambda,
+    SarsaLambdaConfig,
+)
+
+__all__ = [
+    "DynaQ",
+    "DynaQConfig",
+    "ExpectedSarsa",
+    "ExpectedSarsaConfig",
+    "LrtaStar",
+    "LrtaStarConfig",
+    "PrioritizedSweeping",
+    "PrioritizedSweepingConfig",
+    "QLearning",
+    "QLearningConfig",
+    "RMax",
+    "RMaxConfig",
+    "SarsaLambda",
+    "SarsaLambdaConfig",
+]
