@@ -2059,9 +2059,9 @@ class RMaxConfig:
     initial_value
         Value of a motion that is not known, where first_value is constant; in [-1e+09, 1e+09].
     theta
-        theta: changes of a value by no more than this are not planned on with; in (0, 1e+09].
+        theta: changes of a value by no more than this are not planned on with; in [1e-09, 1e+09].
     least_value
-        Value of that from which nothing leads on; in [-1e+09, 0].
+        Value of that from which nothing leads on; in [-1e+06, 0].
     """
     @staticmethod
     def fields() -> dict[str, typing.Any]:
@@ -2112,7 +2112,7 @@ class RMaxConfig:
     @property
     def least_value(self) -> float:
         """
-        Value of that from which nothing leads on; in [-1e+09, 0].
+        Value of that from which nothing leads on; in [-1e+06, 0].
         """
     @property
     def m(self) -> int:
@@ -2122,7 +2122,7 @@ class RMaxConfig:
     @property
     def theta(self) -> float:
         """
-        theta: changes of a value by no more than this are not planned on with; in (0, 1e+09].
+        theta: changes of a value by no more than this are not planned on with; in [1e-09, 1e+09].
         """
 
 class RMax:

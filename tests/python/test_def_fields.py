@@ -104,8 +104,8 @@ EXPECTED = {
         "m": ("m", NO, WHOLE.format(1, 1000), 3),
         "gamma": ("gamma", NO, "in [0, 1]", 1.0),
         **FIRST_VALUES,
-        "theta": ("theta", NO, "in (0, 1e+09]", 1e-6),
-        "least_value": (NO, NO, "in [-1e+09, 0]", -1000.0),
+        "theta": ("theta", NO, "in [1e-09, 1e+09]", 1e-6),
+        "least_value": (NO, NO, "in [-1e+06, 0]", -1000.0),
     },
 }
 

@@ -36,9 +36,9 @@ struct RMaxConfig {
               "cost to go"),
         field("initial_value", &C::initial_value, "", closed(-1e9, 1e9),
               "value of a motion that is not known, where first_value is constant"),
-        field("theta", &C::theta, "theta", above(0.0, 1e9),
+        field("theta", &C::theta, "theta", closed(1e-9, 1e9),
               "changes of a value by no more than this are not planned on with"),
-        field("least_value", &C::least_value, "", closed(-1e9, 0.0),
+        field("least_value", &C::least_value, "", closed(-1e6, 0.0),
               "value of that from which nothing leads on"));
   }
   /// Throws InvalidValue unless every setting lies in its range.
