@@ -310,7 +310,7 @@ py::object agent_of(const Trial& trial) {
 }
 
 LoadOptions load_options(const py::object& agent) {
-  if (agent.is_none()) return {};
+  if (agent.is_none()) return {nullptr, ShortestPathAgent::maker};
   if (!PyType_Check(agent.ptr())) return {as_agent(agent)};
   if (!py::hasattr(agent, "from_state")) {
     throw InvalidValue("agent", shown(agent), "an agent, or a class with from_state");

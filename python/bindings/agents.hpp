@@ -9,6 +9,7 @@
 #include "devlearn/r_max.hpp"
 #include "devlearn/random_agent.hpp"
 #include "devlearn/sarsa_lambda.hpp"
+#include "devlearn/shortest_path_agent.hpp"
 #include "devlearn/trial_snapshot.hpp"
 
 namespace devlearn::python {
@@ -17,7 +18,7 @@ template <class... A>
 struct Agents {};
 /// devlearn's agents that are the same object in Python and in C++.
 using OwnAgents = Agents<RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, DynaQ,
-                         PrioritizedSweeping, LrtaStar, RMax>;
+                         PrioritizedSweeping, LrtaStar, RMax, ShortestPathAgent>;
 
 /// The class of one of them, without its module; null for any other.
 const char* own_name(const Agent& agent);

@@ -7,6 +7,23 @@
 namespace devlearn::python {
 namespace {
 
+/// Pickling by what it goes on from.
+template <class A>
+void def_pickling_of_agent(py::class_<A, std::shared_ptr<A>>& cls) {
+  def_pickling_by_state(
+      cls,
+      [](const A& self) {
+        require_free(&self, own_name(self), InHand::For::kReading);
+        return dict_of(*self.state());
+      },
+      [](const py::object& state) {
+        if (!py::isinstance<py::dict>(state)) {
+          throw InvalidValue("state", shown(state), "a dict, as pickle writes it");
+        }
+        return A(state_of_dict(A::kKind, state.cast<py::dict>()), "state");
+      });
+}
+
 /// The class of agent A, which goes on from what it is told in a trial, and that of its settings.
 template <class A>
 py::class_<A, std::shared_ptr<A>> def_agent(py::module_& m, const std::string& name,
@@ -20,6 +37,7 @@ py::class_<A, std::shared_ptr<A>> def_agent(py::module_& m, const std::string& n
       ".Config (None: the defaults); seed of its draws.\nRaises InvalidValue.";
   py::class_<A, std::shared_ptr<A>> cls(m, name.c_str(), doc.c_str());
   cls.attr("Config") = config;
+  def_pickling_of_agent(cls);
   cls.def(py::init([](const std::optional<Config>& given, Whole<SeedTag> seed) {
             return std::make_shared<A>(given.value_or(Config{}), seed.value);
           }),
@@ -39,19 +57,29 @@ py::class_<A, std::shared_ptr<A>> def_agent(py::module_& m, const std::string& n
         return py::str("<devlearn.agents.{}: {!r}>")
             .format(py::type::of(self).attr("__name__"), self.attr("config"));
       });
-  def_pickling_by_state(
-      cls,
-      [](const A& self) {
-        require_free(&self, own_name(self), InHand::For::kReading);
-        return dict_of(*self.state());
-      },
-      [](const py::object& state) {
-        if (!py::isinstance<py::dict>(state)) {
-          throw InvalidValue("state", shown(state), "a dict, as pickle writes it");
-        }
-        return A(state_of_dict(A::kKind, state.cast<py::dict>()), "state");
-      });
   return cls;
+}
+
+void bind_shortest_path_agent(py::module_& m) {
+  py::class_<ShortestPathAgent, std::shared_ptr<ShortestPathAgent>> cls(
+      m, "ShortestPathAgent",
+      "Follows the way that shortest_path finds from where the robot stands: with the map, the\n"
+      "bound of what can be learned without one. It plans anew where it is off its way. At the\n"
+      "target it makes the first motion that touches nothing.\n\n"
+      "Parameters: robot, as the trial's, without a safety margin; goal_radius of the target, in\n"
+      "(0, 100] m. Raises InvalidValue.");
+  cls.def(py::init([](const Robot& robot, double goal_radius) {
+            return std::make_shared<ShortestPathAgent>(robot, goal_radius);
+          }),
+          py::arg("robot"), py::arg("goal_radius") = 0.1)
+      .def_property_readonly("goal_radius", &ShortestPathAgent::goal_radius, "Of the target [m].")
+      .def("__repr__", [](const py::object& self) {
+        const auto& agent = self.cast<const ShortestPathAgent&>();
+        return py::str("<devlearn.agents.{}: world {!r}, goal_radius {:.4g}>")
+            .format(py::type::of(self).attr("__name__"), agent.robot().world().def().name,
+                    agent.goal_radius());
+      });
+  def_pickling_of_agent(cls);
 }
 
 }  // namespace
@@ -105,6 +133,7 @@ void bind_value_agents(py::module_& m) {
           py::arg("situation"), py::arg("motion"),
           "How often a motion was tried in a situation, at most m: then it is known. Raises "
           "InvalidValue.");
+  bind_shortest_path_agent(m);
 }
 
 }  // namespace devlearn::python

@@ -44,6 +44,7 @@ __all__: list[str] = [
     "SarsaLambda",
     "SarsaLambdaConfig",
     "ShortestPath",
+    "ShortestPathAgent",
     "SituationGrid",
     "SituationMemory",
     "StateEvaluation",
@@ -2155,6 +2156,27 @@ class RMax:
     def config(self) -> RMaxConfig:
         """
         Its settings.
+        """
+
+class ShortestPathAgent:
+    """
+    Follows the way that shortest_path finds from where the robot stands: with the map, the
+    bound of what can be learned without one. It plans anew where it is off its way. At the
+    target it makes the first motion that touches nothing.
+
+    Parameters: robot, as the trial's, without a safety margin; goal_radius of the target, in
+    (0, 100] m. Raises InvalidValue.
+    """
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, robot: Robot, goal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.1
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    @property
+    def goal_radius(self) -> float:
+        """
+        Of the target [m].
         """
 
 class TrialConfig:

@@ -1,4 +1,5 @@
-"""Textbook learners of values, as agents of a trial: what the paper's learner is measured against.
+"""Agents of a trial that the paper's learner is measured against: textbook learners of values, and
+whoever knows the map and takes the shortest way.
 
 from devlearn import Trial, World, agents
 
@@ -21,6 +22,7 @@ from ._core import (
     RMaxConfig,
     SarsaLambda,
     SarsaLambdaConfig,
+    ShortestPathAgent,
 )
 
 __all__ = [
@@ -38,4 +40,5 @@ __all__ = [
     "RMaxConfig",
     "SarsaLambda",
     "SarsaLambdaConfig",
+    "ShortestPathAgent",
 ]

@@ -130,7 +130,11 @@ def public():
         "StateEvaluation": devlearn.StateEvaluation(), "LearnerConfig": LearnerConfig(),
         "TrialConfig": TrialConfig(), "RobotDef": devlearn.RobotDef(),
         "RandomAgent": devlearn.RandomAgent(),
-        **{name: getattr(agents, name)() for name in agents.__all__},
+        **{
+            name: agent(Robot(WORLD)) if name == "ShortestPathAgent" else agent()
+            for name, agent in vars(agents).items()
+            if name in agents.__all__
+        },
     }  # fmt: skip
     for name in dir(_core):
         thing = getattr(_core, name)

@@ -26,7 +26,7 @@ EMPTY = World.load("empty")
 
 def test_the_module_names_each_of_them_and_its_settings():
     names = {agent.__name__ for agent in KINDS.values()}
-    assert set(agents.__all__) == names | {name + "Config" for name in names}
+    assert set(agents.__all__) == names | {n + "Config" for n in names} | {"ShortestPathAgent"}
     for name in names:
         assert getattr(agents, name).Config is getattr(agents, name + "Config")
 
@@ -84,6 +84,28 @@ def test_an_agent_goes_from_trial_to_trial_with_what_it_learned(agent):
     assert again.config == learner.config
     first = Trial(EMPTY, agent=again).free_learning(50)
     assert differences(first, Trial(EMPTY, agent=learner).free_learning(50)) == []
+
+
+def test_the_shortest_path_agent_takes_the_shortest_way_and_is_saved_with_it(tmp_path):
+    robot = devlearn.Robot(World.load("paper"))
+    trial = Trial(robot.world, agent=agents.ShortestPathAgent(robot))
+    assert (
+        trial.path_learning(rounds=2).rounds["steps"].tolist()
+        == [devlearn.shortest_path(robot).steps] * 2
+    )
+    trial.place(4.0, 2.5, 77.0)
+    trial.run(20)
+    trial.save(tmp_path / "trial.safetensors")
+    rest = trial.finish_round(500)
+    assert rest.rounds["arrived"].all()
+    trial = Trial.load(tmp_path / "trial.safetensors")
+    assert (
+        repr(trial.agent) == "<devlearn.agents.ShortestPathAgent: world 'paper', goal_radius 0.1>"
+    )
+    for again in (trial, pickle.loads(pickle.dumps(trial)), trial.copy()):
+        assert differences(again.finish_round(500), rest) == []
+    with pytest.raises(InvalidValue, match="safety_margin: got 0.1; expected none"):
+        agents.ShortestPathAgent(devlearn.Robot(EMPTY, RobotDef(safety_margin=0.1)))
 
 
 # --- settings and values -------------------------------------------------------------------------
