@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "devlearn/adaptive_agent.hpp"
 #include "devlearn/agent.hpp"
 #include "devlearn/detail/require.hpp"
 #include "devlearn/learner_agent.hpp"
@@ -113,9 +114,10 @@ class PythonAgent final : public Agent {
   explicit PythonAgent(py::object agent) : agent_(std::move(agent)) {
     for (const char* method : {"choose", "observe"}) {
       if (!py::hasattr(agent_, method)) {
-        throw InvalidValue("agent", shown(agent_),
-                           "None, a Learner, or an object with choose(observation) and "
-                           "observe(outcome)");
+        throw InvalidValue(
+            "agent", shown(agent_),
+            "None, a Learner, an AdaptiveLearner, or an object with choose(observation) and "
+            "observe(outcome)");
       }
     }
   }
@@ -168,7 +170,8 @@ class PythonAgent final : public Agent {
       return state_from(agent_);
     }
     throw InvalidValue("agent", shown(agent_),
-                       "a Learner, an agent of devlearn's, or one with state() and a classmethod "
+                       "a Learner, an AdaptiveLearner, an agent of devlearn's, or one with state() "
+                       "and a classmethod "
                        "from_state; save any other yourself, the trial with without_agent=True, "
                        "and give it to load as agent=");
   }
@@ -298,6 +301,10 @@ std::shared_ptr<Agent> as_agent(const py::object& agent) {
     require_own_methods<Learner>(agent, {"choose", "learn"});
     return std::make_shared<LearnerAgent>(held<Learner>(agent));
   }
+  if (py::isinstance<AdaptiveLearner>(agent) && !py::hasattr(agent, "observe")) {
+    require_own_methods<AdaptiveLearner>(agent, {"choose", "learn", "begin_round", "end_round"});
+    return std::make_shared<AdaptiveAgent>(held<AdaptiveLearner>(agent));
+  }
   return std::make_shared<PythonAgent>(agent);
 }
 
@@ -306,6 +313,7 @@ py::object agent_of(const Trial& trial) {
     return python->object();
   }
   if (const auto learner = trial.learner()) return py::cast(learner);
+  if (const auto learner = trial.adaptive_learner()) return py::cast(learner);
   return own_object(trial.agent(), OwnAgents());
 }
 
@@ -342,7 +350,7 @@ void bind_agents(py::module_& m) {
       .def_readonly("goal_distance", &Observation::goal_distance, "d_g [m]")
       .def_readonly("clearance", &Observation::clearance, "d_o [m]")
       .def_readonly("estimate", &Observation::estimate,
-                    "Cost to go at the least: d_g / (v t_s), in steps; at least 0.")
+                    "Cost to go at the least, in steps: d_g / (v t_s), 0 at the target.")
       .def_readonly("motion_count", &Observation::motion_count,
                     "Choose one in 0 ... motion_count - 1.")
       .def_property_readonly(
@@ -373,7 +381,8 @@ void bind_agents(py::module_& m) {
       .def_readonly("collided", &Outcome::collided, "Whether the body touched something.")
       .def_readonly("arrived", &Outcome::arrived, "d_g <= goal_radius.")
       .def_readonly("estimate", &Outcome::estimate, "Cost to go from there, as in Observation.")
-      .def_readonly("cost", &Outcome::cost, "What the step cost: 1.")
+      .def_readonly("cost", &Outcome::cost,
+                    "What the step cost: 1, and touch_cost more if it collided.")
       .def_property_readonly("reward", &Outcome::reward, "-cost.")
       .def(
           "__repr__",

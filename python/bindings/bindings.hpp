@@ -34,6 +34,7 @@ void bind_random(py::module_& m);
 void bind_situation(py::module_& m);
 void bind_evaluation(py::module_& m);
 void bind_learner(py::module_& m);
+void bind_adaptive(py::module_& m);
 void bind_explanation(py::module_& m);
 void bind_world(py::module_& m);
 void bind_robot(py::module_& m);
@@ -251,10 +252,17 @@ struct type_caster<devlearn::Development> {
   static handle cast(const devlearn::Development& development, return_value_policy, handle);
 };
 
-template <>
-struct type_caster<devlearn::python::Idle> {
-  PYBIND11_TYPE_CASTER(devlearn::python::Idle, make_caster<devlearn::Learner>::name);
-  bool load(handle source, bool convert);
+template <typename L>
+struct type_caster<devlearn::python::IdleOf<L>> {
+  PYBIND11_TYPE_CASTER(devlearn::python::IdleOf<L>, make_caster<L>::name);
+  bool load(handle source, bool convert) {
+    // Looked up once: that takes longer than choosing.
+    static const type_info* const type = get_type_info(typeid(L));
+    type_caster_generic learner(type);
+    if (!learner.load(source, convert) || learner.value == nullptr) return false;
+    value = {*static_cast<L*>(learner.value), type->type->tp_name + sizeof "devlearn._core." - 1};
+    return true;
+  }
 };
 
 /// Bools alone: of numbers nobody knows which ones mean true.

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "bindings.hpp"
@@ -33,13 +34,17 @@ struct Type {
   using type = T;
 };
 
+template <typename Range>
+constexpr bool is_nested = std::is_same_v<std::decay_t<Range>, detail::Nested> ||
+                           detail::IsOneOf<std::decay_t<Range>>::value;
+
 template <typename Def, std::size_t I>
 constexpr auto type_of_argument() {
   using Field = decltype(field_of<Def, I>());
   using T = typename Field::Value;
   if constexpr (std::is_enum_v<T>) {
     return Type<std::string>{};
-  } else if constexpr (std::is_same_v<decltype(Field::range), detail::Nested>) {
+  } else if constexpr (is_nested<decltype(Field::range)>) {
     return Type<std::optional<T>>{};
   } else if constexpr (std::is_same_v<decltype(Field::range), detail::WholeNumbers>) {
     return Type<Whole<FieldTag<Def, I>>>{};
@@ -64,7 +69,7 @@ void assign(Def& def, Argument<Def, I>&& given) {
                          field.allowed());
     }
     place = static_cast<T>(found - names.begin());
-  } else if constexpr (std::is_same_v<decltype(field.range), detail::Nested>) {
+  } else if constexpr (is_nested<decltype(field.range)>) {
     if (given) place = *std::move(given);
   } else if constexpr (std::is_same_v<decltype(field.range), detail::WholeNumbers>) {
     place = given.value;
@@ -81,7 +86,7 @@ py::object default_of(const Def& defaults) {
   using T = std::decay_t<decltype(value)>;
   if constexpr (std::is_enum_v<T>) {
     return py::str(field.range.names[static_cast<std::size_t>(value)]);
-  } else if constexpr (std::is_same_v<decltype(field.range), detail::Nested>) {
+  } else if constexpr (is_nested<decltype(field.range)>) {
     return py::none();
   } else if constexpr (std::is_same_v<T, std::vector<double>>) {
     return py::tuple(py::cast(value));
@@ -115,18 +120,38 @@ void def_constructor(py::class_<Def>& cls, std::index_sequence<I...>) {
            .noconvert(std::is_same_v<Argument<Def, I>, bool>) = default_of<Def, I>(defaults))...);
 }
 
+/// The classes of a variant's Defs by kind; the first is the one meant where none is named.
+template <std::size_t N, typename... Defs>
+py::dict types_of(const detail::OneOf<N>& range, const std::variant<Defs...>*) {
+  py::dict types;
+  std::size_t i = 0;
+  ((types[i == 0 ? "" : range.kinds[i]] = py::type::of<Defs>(), ++i), ...);
+  types[range.kinds[0]] = types[""];
+  return types;
+}
+
+/// What a field's dict says besides its fields: which class it stands for, if not the first.
+std::string kind_of(const py::dict& nested, const std::string& field, const py::object& type);
+/// What a field's dict stands for. Throws InvalidValue for an unknown kind.
+py::object nested_from_dict(const std::string& quantity, const py::dict& types,
+                            const py::handle& fields);
+
 /// The class: its constructor, an attribute a field, fields, to_dict, from_dict, replace, equality,
 /// hash, repr and pickling. `about` is the docstring's head.
 template <typename Def>
 py::class_<Def> def_config(py::module_& m, const std::string& about) {
   const std::string owner = Def::fields().owner;
   std::vector<std::string> names;
-  py::dict nested;  // the class that a field's dict stands for
+  py::dict nested;  // the classes that a field's dict stands for, by its kind
   std::string doc = about + "\n\nRaises InvalidValue.\n\nParameters\n----------\n";
   detail::each_field<Def>([&](const auto& field) {
     names.emplace_back(field.name);
     if constexpr (std::is_same_v<decltype(field.range), detail::Nested>) {
-      nested[field.name] = py::type::of<typename std::decay_t<decltype(field)>::Value>();
+      nested[field.name] =
+          py::dict(py::arg("") = py::type::of<typename std::decay_t<decltype(field)>::Value>());
+    } else if constexpr (is_nested<decltype(field.range)>) {
+      nested[field.name] = types_of(
+          field.range, static_cast<const typename std::decay_t<decltype(field)>::Value*>(nullptr));
     }
     doc += field.name + std::string("\n") + in_lines(text_of(field));
   });
@@ -164,11 +189,17 @@ py::class_<Def> def_config(py::module_& m, const std::string& about) {
       "What each field is, by name: a dict of its symbol, unit, range, default and doc.");
   cls.def(
       "to_dict",
-      [names](const py::object& self) {
+      [names, nested](const py::object& self) {
         py::dict fields;
         for (const std::string& name : names) {
           py::object value = self.attr(name.c_str());
-          if (py::hasattr(value, "to_dict")) value = value.attr("to_dict")();
+          if (py::hasattr(value, "to_dict")) {
+            const py::object type = py::type::of(value);
+            value = value.attr("to_dict")();
+            if (const std::string kind = kind_of(nested, name, type); !kind.empty()) {
+              value["kind"] = kind;
+            }
+          }
           fields[name.c_str()] = value;
         }
         return fields;
@@ -184,7 +215,7 @@ py::class_<Def> def_config(py::module_& m, const std::string& about) {
         throw InvalidValue(owner + "." + name, "an unknown field", "one of " + known);
       }
       arguments[key] = nested.contains(key) && py::isinstance<py::dict>(value)
-                           ? py::object(nested[key].attr("from_dict")(value))
+                           ? nested_from_dict(owner + "." + name, nested[key], value)
                            : py::reinterpret_borrow<py::object>(value);
     }
     return type(**arguments).template cast<Def>();

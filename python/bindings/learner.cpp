@@ -6,7 +6,7 @@
 
 #include "bindings.hpp"
 #include "config.hpp"
-#include "devlearn/snapshot.hpp"
+#include "snapshots.hpp"
 #include "straight_method.hpp"
 
 namespace PYBIND11_NAMESPACE {
@@ -41,7 +41,7 @@ handle member(devlearn::Event event) {
 // A named tuple of these values: what its class's _make does.
 template <typename... Values>
 object named_tuple(handle type, Values... values) {
-  const tuple arguments = make_tuple(make_tuple(values...));
+  const tuple arguments = pybind11::make_tuple(pybind11::make_tuple(values...));
   PyObject* made =
       PyTuple_Type.tp_new(reinterpret_cast<PyTypeObject*>(type.ptr()), arguments.ptr(), nullptr);
   if (made == nullptr) throw error_already_set();
@@ -49,15 +49,6 @@ object named_tuple(handle type, Values... values) {
 }
 
 }  // namespace
-
-bool type_caster<devlearn::python::Idle>::load(handle source, bool convert) {
-  // Looked up once: that takes longer than choosing.
-  static const type_info* const type = get_type_info(typeid(devlearn::Learner));
-  type_caster_generic learner(type);
-  if (!learner.load(source, convert) || learner.value == nullptr) return false;
-  value = devlearn::python::Idle(*static_cast<devlearn::Learner*>(learner.value));
-  return true;
-}
 
 bool type_caster<devlearn::python::Mask>::load(handle source, bool) {
   if (source.is_none()) return true;
@@ -84,19 +75,20 @@ handle type_caster<devlearn::Choice>::cast(const devlearn::Choice& choice, retur
                                            handle) {
   const auto made = [&] { return named_tuple(choice_type(), choice.motion, choice.kind); };
   // They never change, and few differ: each is made once.
-  static std::array<std::array<PyObject*, 4>, 256> shared{};
+  static std::array<std::array<PyObject*, 7>, 256> shared{};
   const auto motion = static_cast<std::size_t>(choice.motion);
   if (motion >= shared.size()) return made().release();
   return kept(shared[motion][static_cast<std::size_t>(choice.kind)], made).inc_ref();
 }
 
 bool type_caster<devlearn::Development>::load(handle source, bool convert) {
-  using Fields =
-      std::tuple<devlearn::SituationId, int, devlearn::Event, int, std::int64_t, std::int64_t>;
+  using Fields = std::tuple<devlearn::SituationId, int, devlearn::Event, int, std::int64_t,
+                            std::int64_t, std::optional<double>>;
   make_caster<Fields> fields;
   if (!isinstance(source, development_type()) || !fields.load(source, convert)) return false;
-  const auto [situation, motion, event, reduced, explored, effective] = cast_op<Fields>(fields);
-  value = {situation, motion, event, reduced, explored, effective};
+  const auto [situation, motion, event, reduced, explored, effective, expected] =
+      cast_op<Fields>(fields);
+  value = {situation, motion, event, reduced, explored, effective, expected};
   return true;
 }
 
@@ -104,7 +96,7 @@ handle type_caster<devlearn::Development>::cast(const devlearn::Development& dev
                                                 return_value_policy, handle) {
   return named_tuple(development_type(), development.situation, development.motion,
                      member(development.event), development.reduced, development.explored_count,
-                     development.effective_count)
+                     development.effective_count, development.value)
       .release();
 }
 
@@ -119,43 +111,6 @@ struct ReserveTag {
   static constexpr const char* quantity = "situations";
   static constexpr const char* allowed = "a whole number in [0, 2^32 - 2]";
 };
-
-py::bytes snapshot_bytes(const Learner& learner) {
-  std::vector<std::byte> bytes;
-  {
-    const InHand reading(learner, InHand::For::kReading);
-    const NoGil no_gil;
-    bytes = to_bytes(learner);
-  }
-  return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-}
-
-Learner copy(const Learner& learner) {
-  const InHand reading(learner, InHand::For::kReading);
-  const NoGil no_gil;
-  return learner;
-}
-
-// An object of a derived class goes the way of pickle: it keeps its class, and what it has besides,
-// copied where there is a memo.
-py::object copied(const py::object& self, const std::optional<py::dict>& memo) {
-  const py::object cls = py::type::of(self);
-  if (cls.is(py::type::of<Learner>())) return py::cast(copy(self.cast<const Learner&>()));
-  py::object made = cls.attr("__new__")(cls);
-  py::object state = self.attr("__getstate__")();
-  if (memo) {
-    (*memo)[py::int_(reinterpret_cast<std::uintptr_t>(self.ptr()))] = made;  // it may hold itself
-    state = py::module_::import("copy").attr("deepcopy")(state, *memo);
-  }
-  made.attr("__setstate__")(state);
-  return made;
-}
-
-Learner from_bytes(const py::bytes& bytes) {
-  const std::string_view view = bytes;
-  const NoGil no_gil;
-  return load_learner(reinterpret_cast<const std::byte*>(view.data()), view.size(), "bytes");
-}
 
 // A copy of an array's values, which must have this type and so many dimensions.
 template <typename T>
@@ -227,6 +182,9 @@ void bind_results(py::module_& m) {
       .value("EXHAUSTED", Kind::kExhausted,
              "all that are allowed were tried and none is effective: any of these")
       .value("UNSTATED", Kind::kUnstated, "chosen by an agent that gives no reason")
+      .value("HABIT", Kind::kHabit, "as in the best round so far")
+      .value("DEVIATION", Kind::kDeviation, "another than the habit's, tried for what it promises")
+      .value("HELD", Kind::kHeld, "the motion of before, for the situation has not changed")
       .finalize();
   py::native_enum<Event>(m, "Event", "enum.IntEnum", "What one outcome changed.")
       .value("NOTHING", Event::kNothing, "an ineffective motion stayed so")
@@ -376,29 +334,6 @@ void bind_learner(py::module_& m) {
           "Whether situations beyond the room are refused (by choose and update, with "
           "InvalidValue; nothing has changed then) instead of room being made, which for a "
           "million of them takes a fifth of a second. Not part of a snapshot.")
-      .def(
-          "save",
-          [](const Learner& self, const py::object& path) {
-            const std::string name = file_path(path);
-            const InHand reading(self, InHand::For::kReading);
-            const NoGil no_gil;
-            save(self, name);
-          },
-          py::arg("path"),
-          "Writes a snapshot (safetensors layout): to the side first, flushed, then renamed. "
-          "Raises "
-          "FileError.")
-      .def_static(
-          "load",
-          [](const py::object& path) {
-            const std::string name = file_path(path);
-            const NoGil no_gil;
-            return load_learner(name);
-          },
-          py::arg("path"),
-          "The learner in a snapshot; it goes on equal to the bit. Raises FileError, saying what "
-          "is "
-          "wrong with the file.")
       .def("memory", &memory_of,
            "All that it remembers, as a LearnerMemory: a tuple of arrays, which are copies.")
       .def_static(
@@ -409,17 +344,6 @@ void bind_learner(py::module_& m) {
           "break a law: lists that do not partition M, unexplored motions out of order, "
           "orientations outside [1e-12, 1] or whose sum is not 1 within 1e-9, counts below 1, "
           "a situation twice, other types or shapes.")
-      .def("to_bytes", &snapshot_bytes, "The snapshot as bytes.")
-      .def_static("from_bytes", &from_bytes, py::arg("snapshot"),
-                  "The learner in a snapshot's bytes. Raises FileError.")
-      .def(
-          "copy", [](const py::object& self) { return copied(self, py::dict()); },
-          "An independent learner that goes on alike.")
-      .def("__copy__", [](const py::object& self) { return copied(self, std::nullopt); })
-      .def(
-          "__deepcopy__",
-          [](const py::object& self, const py::dict& memo) { return copied(self, memo); },
-          py::arg("memo"))
       .def_property_readonly(
           "explored_count", [](Idle self) { return self->explored_count(); },
           "NUM_RM: mappings explored so far.")
@@ -443,9 +367,7 @@ void bind_learner(py::module_& m) {
                " situations, " + std::to_string(self->explored_count()) + " mappings explored, " +
                std::to_string(self->effective_count()) + " effective>";
       });
-  def_pickling_by_state(cls, &snapshot_bytes, [](const py::object& state) {
-    return from_bytes(state.cast<py::bytes>());
-  });
+  def_snapshots(cls);
   StraightMethod<&choose>::put_before(cls, "choose");
   StraightMethod<&learn>::put_before(cls, "learn");
 }

@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_situation(m);
   devlearn::python::bind_evaluation(m);
   devlearn::python::bind_learner(m);
+  devlearn::python::bind_adaptive(m);
   devlearn::python::bind_world(m);
   devlearn::python::bind_robot(m);
   devlearn::python::bind_record(m);

@@ -183,12 +183,17 @@ InHand::InHand(const Trial& trial, For what) : InHand() {
   take(&trial, "Trial", what);
   if (const auto learner = trial.learner()) {
     take(learner.get(), "Learner", what);
+  } else if (const auto adaptive = trial.adaptive_learner()) {
+    take(adaptive.get(), "AdaptiveLearner", what);
   } else if (const char* const own = own_name(*trial.agent())) {
     take(trial.agent().get(), own, what);
   }
 }
 
 InHand::InHand(const Learner& learner, For what) : InHand() { take(&learner, "Learner", what); }
+InHand::InHand(const AdaptiveLearner& learner, For what) : InHand() {
+  take(&learner, "AdaptiveLearner", what);
+}
 
 void InHand::take(const void* object, const char* name, For what) {
   leave_if_late();
@@ -206,8 +211,8 @@ InHand::~InHand() {
   }
 }
 
-Idle::Idle(Learner& learner) : learner_(&learner) {
-  if (!in_hand().empty()) require_free(&learner, "Learner", InHand::For::kRunning);
+void require_idle(const void* learner, const char* name) {
+  if (!in_hand().empty()) require_free(learner, name, InHand::For::kRunning);
 }
 
 void bind_threads(py::module_&) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "devlearn/adaptive.hpp"
 #include "devlearn/learner.hpp"
 
 // How calls from several Python threads, from a child forked during a run, and at the end of the
@@ -83,6 +84,7 @@ class InHand {
   enum class For : bool { kReading, kRunning };
   InHand(const Trial& trial, For what);
   InHand(const Learner& learner, For what);
+  InHand(const AdaptiveLearner& learner, For what);
   ~InHand();
   InHand(const InHand&) = delete;
   InHand& operator=(const InHand&) = delete;
@@ -97,17 +99,22 @@ class InHand {
 /// that only reads it.
 void require_free(const void* object, const char* name, InHand::For what);
 
+/// Throws InvalidValue where another thread's run has any of this kind in hand.
+void require_idle(const void* learner, const char* name);
+
 /// A learner that Python calls; refused while another thread's run has it in hand.
-class Idle {
+template <typename L>
+class IdleOf {
  public:
-  Idle() = default;
-  explicit Idle(Learner& learner);
-  Learner* operator->() const { return learner_; }
-  Learner& operator*() const { return *learner_; }
+  IdleOf() = default;
+  IdleOf(L& learner, const char* name) : learner_(&learner) { require_idle(&learner, name); }
+  L* operator->() const { return learner_; }
+  L& operator*() const { return *learner_; }
 
  private:
-  Learner* learner_ = nullptr;
+  L* learner_ = nullptr;
 };
+using Idle = IdleOf<Learner>;
 
 void bind_threads(py::module_& m);
 

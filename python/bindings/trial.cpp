@@ -124,7 +124,8 @@ void bind_config(py::module_& m) {
   def_config<TrialConfig>(
       m, "Everything a trial needs besides the world and the seed; the defaults are the paper's.")
       .def_static("paper", &TrialConfig::paper, "The default, with LearnerConfig.paper().")
-      .def_static("step5", &TrialConfig::step5, "The other reading, with LearnerConfig.step5().");
+      .def_static("step5", &TrialConfig::step5, "The other reading, with LearnerConfig.step5().")
+      .def_static("adaptive", &TrialConfig::adaptive, "The adaptive learner, by its defaults.");
   m.def(
       "load_config", [](const py::object& path) { return load_config(file_path(path)); },
       py::arg("path"),
@@ -142,8 +143,9 @@ void bind_trial(py::module_& m) {
       "The closed loop: world -> sense -> situation -> choice -> motion -> evaluation ->\n"
       "development -> record.\n\n"
       "Parameters: world; config, a TrialConfig (None: the paper's); seed of the learner's draws;\n"
-      "agent: None for a new paper's learner, a Learner (shared, not copied), a RandomAgent, one\n"
-      "of devlearn.agents, or any object with choose(observation) -> motion index or Choice, and\n"
+      "agent: None for a new learner as config says, a Learner or AdaptiveLearner (shared, not\n"
+      "copied), a RandomAgent, one of devlearn.agents, or any object with choose(observation) ->\n"
+      "motion index or Choice, and\n"
       "observe(outcome). If it has them, these are called, too: begin_round(), before the first\n"
       "choice of a round; end_round(arrived), True where path learning arrives, False where the\n"
       "next round begins; cancel(), where its motion was refused. With state() -> dict of arrays\n"
@@ -224,8 +226,14 @@ void bind_trial(py::module_& m) {
                              "Whether the agent is in a round: told that it began, and not yet "
                              "that it ended.")
       .def_property_readonly("arrived", at_rest(&Trial::arrived), "Whether d_g <= goal_radius.")
-      .def_property_readonly("learner", &Trial::learner,
-                             "The paper's learner, where that is the agent; None otherwise.")
+      .def_property_readonly(
+          "learner",
+          [](const Trial& self)
+              -> std::variant<std::shared_ptr<Learner>, std::shared_ptr<AdaptiveLearner>> {
+            if (const auto adaptive = self.adaptive_learner()) return adaptive;
+            return self.learner();
+          },
+          "The Learner or AdaptiveLearner, where one is the agent; None otherwise.")
       .def_property_readonly("agent", &agent_of, "Whoever chooses.")
       .def_property_readonly("world", &Trial::world, py::return_value_policy::copy, "The World.")
       .def_property_readonly("robot", &Trial::robot, py::return_value_policy::reference_internal,

@@ -19,6 +19,10 @@ from . import errors as errors
 
 if TYPE_CHECKING:
     from ._core import (
+        AdaptiveConfig,
+        AdaptiveExplanation,
+        AdaptiveLearner,
+        AdaptiveMemory,
         ChoiceTrace,
         Circle,
         Event,
@@ -32,6 +36,7 @@ if TYPE_CHECKING:
         Polygon,
         Random,
         RandomAgent,
+        Recollection,
         Rectangle,
         Robot,
         RobotDef,
@@ -56,6 +61,10 @@ if TYPE_CHECKING:
     from .record import Record
 
 __all__ = [
+    "AdaptiveConfig",
+    "AdaptiveExplanation",
+    "AdaptiveLearner",
+    "AdaptiveMemory",
     "Choice",
     "ChoiceTrace",
     "Circle",
@@ -75,6 +84,7 @@ __all__ = [
     "Pose",
     "Random",
     "RandomAgent",
+    "Recollection",
     "Record",
     "Rectangle",
     "Robot",

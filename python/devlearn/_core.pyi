@@ -13,6 +13,10 @@ import threading
 import typing
 
 __all__: list[str] = [
+    "AdaptiveConfig",
+    "AdaptiveExplanation",
+    "AdaptiveLearner",
+    "AdaptiveMemory",
     "ChoiceTrace",
     "Circle",
     "DynaQ",
@@ -38,6 +42,7 @@ __all__: list[str] = [
     "RMaxConfig",
     "Random",
     "RandomAgent",
+    "Recollection",
     "Rectangle",
     "Robot",
     "RobotDef",
@@ -57,6 +62,7 @@ __all__: list[str] = [
     "direction",
     "exponential",
     "heading_of_yaw",
+    "later_columns",
     "load_config",
     "may_reach_target",
     "pose_columns",
@@ -417,6 +423,9 @@ class Kind(enum.IntEnum):
     EXPLOIT = 1
     EXHAUSTED = 2
     UNSTATED = 3
+    HABIT = 4
+    DEVIATION = 5
+    HELD = 6
 
 class Event(enum.IntEnum):
     """
@@ -748,6 +757,484 @@ class Learner:
     def situations_experienced(self) -> int:
         """
         How many situations were experienced.
+        """
+
+class AdaptiveConfig:
+    """
+    The adaptive learner's parameters. Costs are in the caller's unit; in a trial a step costs 1.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    motion_count
+        N_M: number of motions; a whole number in [1, 65535].
+    optimism
+        w: what an untried motion promises: the goal at w times the estimate; in [1, 10].
+    hold_limit
+        Steps after which a held motion is chosen anew though the situation is the same; 1: motions
+        are not held; a whole number in [1, 1000000].
+    recollections
+        Mappings that are recalled after each decision; a whole number in [0, 1000000].
+    patience
+        Rounds that bring nothing better until the best one is a habit; a whole number in [0,
+        1000000].
+    gain
+        What a deviation from the habit must save; in [0, 1e+06].
+    tolerance
+        Share by which a round by habit may cost more before the habit is given up; where there is
+        noise, above 0; in [0, 1e+06].
+    detour
+        What a deviation may cost beyond the habit before the round goes on by values; in [0,
+        1e+09].
+    enough
+        Times the least cost of a round, after which a round goes home by what is known; in [1,
+        1e+09].
+    curious_every
+        Rounds by habit between two looks for what has opened; 0: never; a whole number in [0,
+        1000000].
+    stale_after
+        Rounds after which a motion that was interrupted may be worth another trial; a whole number
+        in [1, 1000000000].
+    sweep_limit
+        Mappings that a call visits at most in a sweep over all that are known, which then takes
+        several calls; 0: no limit; a whole number in [0, 2147483647].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> AdaptiveConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        motion_count: typing.SupportsIndex = 5,
+        optimism: typing.SupportsFloat | typing.SupportsIndex = 1.1,
+        hold_limit: typing.SupportsIndex = 20,
+        recollections: typing.SupportsIndex = 20,
+        patience: typing.SupportsIndex = 10,
+        gain: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        detour: typing.SupportsFloat | typing.SupportsIndex = 20.0,
+        enough: typing.SupportsFloat | typing.SupportsIndex = 3.0,
+        curious_every: typing.SupportsIndex = 0,
+        stale_after: typing.SupportsIndex = 100,
+        sweep_limit: typing.SupportsIndex = 0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> AdaptiveConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def curious_every(self) -> int:
+        """
+        Rounds by habit between two looks for what has opened; 0: never; a whole number in [0, 1000000].
+        """
+    @property
+    def detour(self) -> float:
+        """
+        What a deviation may cost beyond the habit before the round goes on by values; in [0, 1e+09].
+        """
+    @property
+    def enough(self) -> float:
+        """
+        Times the least cost of a round, after which a round goes home by what is known; in [1, 1e+09].
+        """
+    @property
+    def gain(self) -> float:
+        """
+        What a deviation from the habit must save; in [0, 1e+06].
+        """
+    @property
+    def hold_limit(self) -> int:
+        """
+        Steps after which a held motion is chosen anew though the situation is the same; 1: motions are not held; a whole number in [1, 1000000].
+        """
+    @property
+    def motion_count(self) -> int:
+        """
+        N_M: number of motions; a whole number in [1, 65535].
+        """
+    @property
+    def optimism(self) -> float:
+        """
+        w: what an untried motion promises: the goal at w times the estimate; in [1, 10].
+        """
+    @property
+    def patience(self) -> int:
+        """
+        Rounds that bring nothing better until the best one is a habit; a whole number in [0, 1000000].
+        """
+    @property
+    def recollections(self) -> int:
+        """
+        Mappings that are recalled after each decision; a whole number in [0, 1000000].
+        """
+    @property
+    def stale_after(self) -> int:
+        """
+        Rounds after which a motion that was interrupted may be worth another trial; a whole number in [1, 1000000000].
+        """
+    @property
+    def sweep_limit(self) -> int:
+        """
+        Mappings that a call visits at most in a sweep over all that are known, which then takes several calls; 0: no limit; a whole number in [0, 2147483647].
+        """
+    @property
+    def tolerance(self) -> float:
+        """
+        Share by which a round by habit may cost more before the habit is given up; where there is noise, above 0; in [0, 1e+06].
+        """
+
+class AdaptiveMemory:
+    """
+    What one situation holds, as a copy. The three lists of motion indices are views of the
+    losses: no outcome yet, expected loss at most E, more than E. N motions.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
+    @property
+    def effective(self) -> list[int]:
+        """
+        M_i: tried, q at most E.
+        """
+    @property
+    def expected_loss(self) -> float:
+        """
+        E: on the way to the goal, beyond the estimate.
+        """
+    @property
+    def first_estimate(self) -> float:
+        """
+        h: the estimate at the first meeting.
+        """
+    @property
+    def ineffective(self) -> list[int]:
+        """
+        Tried, q more than E.
+        """
+    @property
+    def losses(self) -> list[float]:
+        """
+        N values: q of each motion.
+        """
+    @property
+    def times(self) -> list[int]:
+        """
+        N values: outcomes remembered of each.
+        """
+    @property
+    def unexplored(self) -> list[int]:
+        """
+        RM_i: not tried yet.
+        """
+
+class Recollection:
+    """
+    What one recollection changed.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
+    @property
+    def expected(self) -> float:
+        """
+        E, after it.
+        """
+    @property
+    def expected_before(self) -> float:
+        """
+        E of the situation.
+        """
+    @property
+    def loss(self) -> float:
+        """
+        q, after it.
+        """
+    @property
+    def loss_before(self) -> float:
+        """
+        q of the mapping.
+        """
+    @property
+    def motion(self) -> int:
+        """
+        Of the mapping recalled.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        Of the mapping recalled.
+        """
+
+class AdaptiveExplanation:
+    """
+    Why a motion is chosen in a situation, by an AdaptiveLearner. Motions are -1 where there is
+    none. str() of it is a table.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def allowed(self) -> list[bool]:
+        """
+        N bools: whether each motion may be chosen.
+        """
+    @property
+    def deviation(self) -> int:
+        """
+        The one by which this round is to deviate from the habit here.
+        """
+    @property
+    def habit(self) -> int:
+        """
+        The habit's here, where this round goes by habit.
+        """
+    @property
+    def held(self) -> int:
+        """
+        The motion that is held here.
+        """
+    @property
+    def homeward(self) -> bool:
+        """
+        Whether this round goes home by what is known.
+        """
+    @property
+    def kind(self) -> Kind:
+        """
+        What the choice goes by, or went by: a Kind.
+        """
+    @property
+    def memory(self) -> AdaptiveMemory:
+        """
+        Lists and losses.
+        """
+    @property
+    def motion(self) -> int:
+        """
+        What it was, where it was made; before, what it will be where there is nothing to draw.
+        """
+    @property
+    def probability(self) -> list[float]:
+        """
+        N values: of each to be chosen by values.
+        """
+    @property
+    def recollections(self) -> list[Recollection]:
+        """
+        What those of the last decision changed, at most 1000.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        The situation's id.
+        """
+
+class AdaptiveLearner:
+    """
+    A learner with an adaptive SEF, -(Phi + E): the estimate of the cost to go, corrected by
+    what was experienced.
+
+        learner = AdaptiveLearner(AdaptiveConfig(motion_count=4), seed=1)
+        learner.begin_round()
+        while not arrived:
+            motion = learner.choose(situation, estimate).motion
+            ...make one step of it...
+            learner.learn(cost, next, next_estimate)   # estimate 0: the goal
+        learner.end_round(True)
+
+    The estimate is the caller's guess of the cost to go: linear in the distance, 0 at the goal
+    and nowhere else. Without rounds there are no habits. The same configuration, seed and
+    outcomes give the same history everywhere. One thread at a time.
+    """
+    @staticmethod
+    def from_bytes(snapshot: bytes) -> AdaptiveLearner:
+        """
+        The learner in a snapshot's bytes. Raises FileError.
+        """
+    @staticmethod
+    def load(path: typing.Any) -> AdaptiveLearner:
+        """
+        The learner in a snapshot; it goes on equal to the bit. Raises FileError, saying what is wrong with the file.
+        """
+    def __copy__(self) -> typing.Any: ...
+    def __deepcopy__(self, memo: dict[str, typing.Any]) -> typing.Any: ...
+    def __getstate__(self) -> tuple[bytes, typing.Any]: ...
+    def __init__(
+        self, config: AdaptiveConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins; an open decision is dropped.
+        """
+    def best(self, situation: typing.SupportsIndex) -> int | None:
+        """
+        The tried motion of least expected loss, the first among equals; None where none was tried. Draws and changes nothing.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice is not made: as the first of its decision nothing happened; later, the decision ends as interrupted. Raises InvalidValue where none waits.
+        """
+    def choose(
+        self,
+        situation: typing.SupportsIndex,
+        estimate: typing.SupportsFloat | typing.SupportsIndex,
+        allowed: collections.abc.Sequence[bool] | numpy.typing.NDArray[numpy.bool_] | None = None,
+    ) -> devlearn._types.Choice:
+        """
+        The motion for the next step: the one that is held, or a new decision, among those `allowed`: bools, one a motion (None: every one). estimate: of the cost to go, in [0, 1e12]. Raises InvalidValue, likewise while a choice waits for learn() or cancel().
+        """
+    def copy(self) -> typing.Any:
+        """
+        An independent learner that goes on alike.
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        A round ends, at the goal or not. Raises InvalidValue where none has begun.
+        """
+    def expected_loss(self, situation: typing.SupportsIndex) -> float | None:
+        """
+        E of a situation; None where it was never met.
+        """
+    def explain(
+        self,
+        situation: typing.SupportsIndex,
+        allowed: collections.abc.Sequence[bool] | numpy.typing.NDArray[numpy.bool_] | None = None,
+    ) -> AdaptiveExplanation:
+        """
+        Why a motion would be chosen in a situation as it is now: an AdaptiveExplanation. Changes nothing.
+        """
+    def forget(self, situation: typing.SupportsIndex) -> bool:
+        """
+        Forgets the outcomes of a situation's motions; whether it was ever met. Those that lead there stay; a habit through it is dropped. Raises InvalidValue for a negative situation, or while a decision is open in it.
+        """
+    def learn(
+        self,
+        cost: typing.SupportsFloat | typing.SupportsIndex,
+        next: typing.SupportsIndex,
+        next_estimate: typing.SupportsFloat | typing.SupportsIndex,
+        interrupted: bool = False,
+    ) -> devlearn._types.Development:
+        """
+        What that step came to: its cost in [0, 1e12], and where it led; next_estimate 0 is the goal. interrupted: the motion cannot be held (the body touched something). The Development tells an event at the end of a decision. Raises InvalidValue.
+        """
+    def reserve(self, situations: typing.SupportsIndex, outcomes: typing.SupportsIndex) -> None:
+        """
+        Makes room for so many in all, so that up to then nothing is allocated.
+        """
+    def save(self, path: typing.Any) -> None:
+        """
+        Writes a snapshot (safetensors layout): to the side first, flushed, then renamed. Raises FileError.
+        """
+    def situation(self, situation: typing.SupportsIndex) -> AdaptiveMemory:
+        """
+        A situation's lists and losses, an AdaptiveMemory; of one never met every motion is unexplored. Creates nothing.
+        """
+    def situations(self) -> numpy.ndarray:
+        """
+        Ids of the situations met, in that order: an int64 array.
+        """
+    def to_bytes(self) -> bytes:
+        """
+        The snapshot as bytes.
+        """
+    def update(
+        self,
+        situation: typing.SupportsIndex,
+        motion: typing.SupportsIndex,
+        cost: typing.SupportsFloat | typing.SupportsIndex,
+        next: typing.SupportsIndex,
+        next_estimate: typing.SupportsFloat | typing.SupportsIndex,
+        estimate: typing.SupportsFloat | typing.SupportsIndex | None = None,
+    ) -> devlearn._types.Development:
+        """
+        An outcome whoever made it: of a decision by `motion` in `situation` that cost so much and led to `next`. estimate: where the decision was made (None: what it was at the first meeting). The open decision, round and habit stay. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> AdaptiveConfig:
+        """
+        Its parameters.
+        """
+    @property
+    def effective_count(self) -> int:
+        """
+        NUM_M: of these, the ones whose loss is at most E.
+        """
+    @property
+    def explored_count(self) -> int:
+        """
+        NUM_RM: mappings with an outcome.
+        """
+    @property
+    def habit_cost(self) -> float | None:
+        """
+        What the habit costs; None where there is none.
+        """
+    @property
+    def in_round(self) -> bool:
+        """
+        Whether a round is under way: begun, and neither ended nor gone on with from the goal.
+        """
+    @property
+    def last_choice(self) -> AdaptiveExplanation | None:
+        """
+        Why the last decision came out as it did: an AdaptiveExplanation; None before the first one since the learner was made or loaded.
+        """
+    @property
+    def memory_use(self) -> MemoryUse:
+        """
+        Bytes used and spare, a MemoryUse.
+        """
+    @property
+    def optimism(self) -> float:
+        """
+        w, as it has fallen.
+        """
+    @property
+    def outcomes(self) -> int:
+        """
+        How many are remembered.
+        """
+    @property
+    def pending(self) -> devlearn._types.Choice | None:
+        """
+        The choice that waits for its step, or None.
+        """
+    @property
+    def seed(self) -> int:
+        """
+        The seed it began with.
+        """
+    @property
+    def situations_experienced(self) -> int:
+        """
+        How many situations were met.
         """
 
 class Circle:
@@ -1161,6 +1648,11 @@ class Step:
         Whether the body touched something during the step.
         """
     @property
+    def cost(self) -> float:
+        """
+        Of the step: 1, and touch_cost more where it collided.
+        """
+    @property
     def effective_count(self) -> int:
         """
         After the step: NUM_M.
@@ -1225,6 +1717,11 @@ class Step:
         """
         What was learned from: min(smf, -1) for a collision.
         """
+    @property
+    def value(self) -> float | None:
+        """
+        After the step: cost to go as the agent expects it; NaN: it does not say.
+        """
 
 class Observation:
     """
@@ -1249,7 +1746,7 @@ class Observation:
     @property
     def estimate(self) -> float:
         """
-        Cost to go at the least: d_g / (v t_s), in steps; at least 0.
+        Cost to go at the least, in steps: d_g / (v t_s), 0 at the target.
         """
     @property
     def goal_distance(self) -> float:
@@ -1300,7 +1797,7 @@ class Outcome:
     @property
     def cost(self) -> float:
         """
-        What the step cost: 1.
+        What the step cost: 1, and touch_cost more if it collided.
         """
     @property
     def estimate(self) -> float:
@@ -2188,7 +2685,8 @@ class TrialConfig:
     Parameters
     ----------
     learner
-        Steps 3-5; its motions are the robot's; a LearnerConfig.
+        The paper's steps 3-5, or the adaptive learner; its motions are the robot's; a LearnerConfig
+        or AdaptiveConfig.
     evaluation
         Step 2, Eq. 6; a StateEvaluation.
     robot
@@ -2200,11 +2698,19 @@ class TrialConfig:
         Whether walls count in d_o; the clearance source sonar needs it; true or false.
     goal_radius
         Arrived when d_g is no more than this; in (0, 100] m.
+    touch_cost
+        What a step costs beside 1 where the body touched something; the paper's learner does not
+        look at costs; in [0, 1e+06].
     cell_size
         Side of a cell of the situation grid; in [0.001, 1000] m.
     heading_bins
         Headings of the situation grid; a whole number in [1, 3600].
     """
+    @staticmethod
+    def adaptive() -> TrialConfig:
+        """
+        The adaptive learner, by its defaults.
+        """
     @staticmethod
     def fields() -> dict[str, typing.Any]:
         """
@@ -2229,12 +2735,13 @@ class TrialConfig:
     def __hash__(self) -> int: ...
     def __init__(
         self,
-        learner: LearnerConfig | None = None,
+        learner: LearnerConfig | AdaptiveConfig | None = None,
         evaluation: StateEvaluation | None = None,
         robot: RobotDef | None = None,
         clearance_source: str = "geometric",
         walls_count: bool = False,
         goal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        touch_cost: typing.SupportsFloat | typing.SupportsIndex = 5.0,
         cell_size: typing.SupportsFloat | typing.SupportsIndex = 0.25,
         heading_bins: typing.SupportsIndex = 12,
     ) -> None: ...
@@ -2274,14 +2781,19 @@ class TrialConfig:
         Headings of the situation grid; a whole number in [1, 3600].
         """
     @property
-    def learner(self) -> LearnerConfig:
+    def learner(self) -> LearnerConfig | AdaptiveConfig:
         """
-        Steps 3-5; its motions are the robot's; a LearnerConfig.
+        The paper's steps 3-5, or the adaptive learner; its motions are the robot's; a LearnerConfig or AdaptiveConfig.
         """
     @property
     def robot(self) -> RobotDef:
         """
         Eq. 1-2; a RobotDef.
+        """
+    @property
+    def touch_cost(self) -> float:
+        """
+        What a step costs beside 1 where the body touched something; the paper's learner does not look at costs; in [0, 1e+06].
         """
     @property
     def walls_count(self) -> bool:
@@ -2295,8 +2807,9 @@ class Trial:
     development -> record.
 
     Parameters: world; config, a TrialConfig (None: the paper's); seed of the learner's draws;
-    agent: None for a new paper's learner, a Learner (shared, not copied), a RandomAgent, one
-    of devlearn.agents, or any object with choose(observation) -> motion index or Choice, and
+    agent: None for a new learner as config says, a Learner or AdaptiveLearner (shared, not
+    copied), a RandomAgent, one of devlearn.agents, or any object with choose(observation) ->
+    motion index or Choice, and
     observe(outcome). If it has them, these are called, too: begin_round(), before the first
     choice of a round; end_round(arrived), True where path learning arrives, False where the
     next round begins; cancel(), where its motion was refused. With state() -> dict of arrays
@@ -2437,9 +2950,9 @@ class Trial:
         The SituationGrid over the arena.
         """
     @property
-    def learner(self) -> Learner:
+    def learner(self) -> Learner | AdaptiveLearner:
         """
-        The paper's learner, where that is the agent; None otherwise.
+        The Learner or AdaptiveLearner, where one is the agent; None otherwise.
         """
     @property
     def pose(self) -> devlearn._types.Pose:
@@ -2548,6 +3061,7 @@ def yaw_of_heading(heading: typing.SupportsFloat | typing.SupportsIndex) -> floa
 __version__: str
 box2d_version: str
 commit: str
+later_columns: tuple[str, ...] = ("cost", "value")
 pose_columns: dict[str, tuple[str, str]] = {
     "x": ("float64", "of the robot's centre [m]"),
     "y": ("float64", "likewise [m]"),
@@ -2565,6 +3079,11 @@ step_columns: dict[str, tuple[str, str]] = {
     "arrived": ("bool", "after the step: d_g <= goal_radius"),
     "goal_distance": ("float64", "after the step: d_g [m]"),
     "clearance": ("float64", "after the step: d_o [m]"),
+    "cost": ("float64", "of the step: 1, and touch_cost more where it collided"),
+    "value": (
+        "float64",
+        "after the step: cost to go as the agent expects it; NaN: it does not say",
+    ),
     "event": ("uint8", "what the outcome changed, an Event"),
     "reduced": ("int32", "motions that reduction development removed"),
     "explored_count": ("int64", "after the step: NUM_RM"),

@@ -53,6 +53,8 @@ class Development(NamedTuple):
     """NUM_RM, after it."""
     effective_count: int = 0
     """NUM_M, after it."""
+    value: float | None = None
+    """Cost to go from there on, as the agent expects it; None: it does not say."""
 
 
 class LearnerMemory(NamedTuple):

@@ -65,6 +65,8 @@ class Record:  # noqa: D101 - made of the columns
     arrived: npt.NDArray[np.bool_]
     goal_distance: npt.NDArray[np.float64]
     clearance: npt.NDArray[np.float64]
+    cost: npt.NDArray[np.float64]
+    value: npt.NDArray[np.float64]
     event: npt.NDArray[np.uint8]
     reduced: npt.NDArray[np.int32]
     explored_count: npt.NDArray[np.int64]
@@ -166,7 +168,7 @@ class Record:  # noqa: D101 - made of the columns
         return (
             self.provenance == other.provenance
             and tuple(self) == tuple(other)
-            and all(np.array_equal(self[name], other[name]) for name in self)
+            and all(_same(self[name], other[name]) for name in self)
         )
 
     __hash__ = None  # type: ignore[assignment]
@@ -303,7 +305,12 @@ class Record:  # noqa: D101 - made of the columns
         steps, poses = sum(rounds["steps"].tolist()), len(rounds)
         if len(rounds) > 0 and found.length("x") == 0:
             steps, poses = 0, 0
-        columns = {n: found.array(n, dtype, (steps,)) for n, dtype in STEP_COLUMNS.items()}
+        columns = {
+            n: np.full(steps, np.nan)
+            if n in _core.later_columns and n not in found
+            else found.array(n, dtype, (steps,))
+            for n, dtype in STEP_COLUMNS.items()
+        }
         columns |= {n: found.array(n, dtype, (steps + poses,)) for n, dtype in POSE_COLUMNS.items()}
         columns["rounds"] = rounds
         if "echoes" in found:
@@ -376,6 +383,10 @@ class Record:  # noqa: D101 - made of the columns
             with written_aside(os.fsdecode(path) + ".json", "w") as file:
                 json.dump(self.provenance, file, indent=1)
                 file.write("\n")
+
+
+def _same(a: npt.NDArray[Any], b: npt.NDArray[Any]) -> bool:
+    return np.array_equal(a, b, equal_nan=a.dtype == np.float64)
 
 
 def provenance_of(

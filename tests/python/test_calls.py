@@ -111,8 +111,8 @@ ODD = [
 
 # What is only had from a call has no constructor, and says so.
 RESULTS = {
-    "ChoiceTrace", "Explanation", "MemoryUse", "Observation", "Outcome", "ShortestPath",
-    "SituationMemory", "Step",
+    "AdaptiveExplanation", "AdaptiveMemory", "ChoiceTrace", "Explanation", "MemoryUse",
+    "Observation", "Outcome", "Recollection", "ShortestPath", "SituationMemory", "Step",
 }  # fmt: skip
 
 
@@ -135,6 +135,7 @@ def public():
             for name, agent in vars(agents).items()
             if name in agents.__all__
         },
+        "AdaptiveLearner": devlearn.AdaptiveLearner(), "AdaptiveConfig": devlearn.AdaptiveConfig(),
     }  # fmt: skip
     for name in dir(_core):
         thing = getattr(_core, name)

@@ -11,12 +11,21 @@ from pathlib import Path
 import devlearn
 import numpy as np
 import pytest
-from devlearn import LearnerConfig, Record, RobotDef, StateEvaluation, TrialConfig, _core, agents
+from devlearn import (
+    AdaptiveConfig,
+    LearnerConfig,
+    Record,
+    RobotDef,
+    StateEvaluation,
+    TrialConfig,
+    _core,
+    agents,
+)
 from devlearn.record import POSE_COLUMNS, STEP_COLUMNS
 
 SOURCE = Path(__file__).parents[2]
 CONFIGS = [
-    LearnerConfig, StateEvaluation, RobotDef, TrialConfig, agents.QLearning.Config,
+    LearnerConfig, AdaptiveConfig, StateEvaluation, RobotDef, TrialConfig, agents.QLearning.Config,
     agents.ExpectedSarsa.Config, agents.SarsaLambda.Config, agents.DynaQ.Config,
     agents.PrioritizedSweeping.Config, agents.LrtaStar.Config, agents.RMax.Config,
 ]  # fmt: skip
@@ -48,6 +57,20 @@ EXPECTED = {
         "on_negative": (NO, NO, "'abandon' or 'weaken'", "abandon"),
         "when_exhausted": (NO, NO, "'retry' or 'wander'", "retry"),
     },
+    AdaptiveConfig: {
+        "motion_count": ("N_M", NO, WHOLE.format(1, 65535), 5),
+        "optimism": ("w", NO, "in [1, 10]", 1.1),
+        "hold_limit": (NO, NO, WHOLE.format(1, 1_000_000), 20),
+        "recollections": (NO, NO, WHOLE.format(0, 1_000_000), 20),
+        "patience": (NO, NO, WHOLE.format(0, 1_000_000), 10),
+        "gain": (NO, NO, "in [0, 1e+06]", 0.5),
+        "tolerance": (NO, NO, "in [0, 1e+06]", 0.0),
+        "detour": (NO, NO, "in [0, 1e+09]", 20.0),
+        "enough": (NO, NO, "in [1, 1e+09]", 3.0),
+        "curious_every": (NO, NO, WHOLE.format(0, 1_000_000), 0),
+        "stale_after": (NO, NO, WHOLE.format(1, 1_000_000_000), 100),
+        "sweep_limit": (NO, NO, WHOLE.format(0, 2**31 - 1), 0),
+    },
     StateEvaluation: {
         "a1": ("a_1", NO, "in [-1e+06, 1e+06]", 20.0),
         "a2": ("a_2", "1/m^2", "in [0, 1e+06] 1/m^2", 0.3),
@@ -72,12 +95,13 @@ EXPECTED = {
         "safety_margin": (NO, "m", "in (0, 10] m, or none", None),
     },
     TrialConfig: {
-        "learner": (NO, NO, "a LearnerConfig", LearnerConfig()),
+        "learner": (NO, NO, "a LearnerConfig or AdaptiveConfig", LearnerConfig()),
         "evaluation": (NO, NO, "a StateEvaluation", StateEvaluation()),
         "robot": (NO, NO, "a RobotDef", RobotDef()),
         "clearance_source": (NO, NO, "'geometric' or 'sonar'", "geometric"),
         "walls_count": (NO, NO, "true or false", False),
         "goal_radius": (NO, "m", "in (0, 100] m", 0.1),
+        "touch_cost": (NO, NO, "in [0, 1e+06]", 5.0),
         "cell_size": (NO, "m", "in [0.001, 1000] m", 0.25),
         "heading_bins": (NO, NO, WHOLE.format(1, 3600), 12),
     },
@@ -152,7 +176,9 @@ def other(value):
         changes = {name: other(field["default"]) for name, field in value.fields().items()}
         changes.pop("motion_count", None)  # is the number of steering angles
         return type(value)(**changes)
-    return 0.15 if value is None else 0.5 * value or 0.5
+    if value is None:
+        return 0.15
+    return 1.5 * value if value > 1 else 0.5 * value or 0.5
 
 
 @each_config

@@ -179,6 +179,9 @@ def test_kinds_and_events_have_the_numbers_of_records():
         ("EXPLOIT", 1),
         ("EXHAUSTED", 2),
         ("UNSTATED", 3),
+        ("HABIT", 4),
+        ("DEVIATION", 5),
+        ("HELD", 6),
     ]
     assert [(event.name, int(event)) for event in Event] == [
         ("NOTHING", 0),
@@ -288,7 +291,7 @@ def test_results_are_named_tuples_that_nothing_changes():
     assert repr(choice) == f"Choice(motion={motion}, kind={Kind.EXPLORE!r})"
     assert repr(development) == (
         f"Development(situation=7, motion={motion}, event={Event.EXTENSION!r}, reduced=0, "
-        "explored_count=1, effective_count=1)"
+        "explored_count=1, effective_count=1, value=None)"
     )
     for result in (choice, development):
         assert pickle.loads(pickle.dumps(result)) == copy.deepcopy(result) == result

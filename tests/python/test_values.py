@@ -35,6 +35,8 @@ def things():
     world = World.load("paper")
     trial = Trial(world, seed=1)
     trial.run(200)
+    adaptive = Trial(world, devlearn.TrialConfig.adaptive(), seed=1)
+    adaptive.run(200)
     keeper = kept()
     assert keeper.observation.allowed is not None
     return {
@@ -46,6 +48,8 @@ def things():
             devlearn.Circle((1, 1), 1), devlearn.Rectangle((1, 1), (1, 1)),
             devlearn.Polygon([(1, 1), (2, 1), (2, 2)]), devlearn.StateEvaluation(),
             devlearn.LearnerConfig(), devlearn.TrialConfig(), trial.learner.situation(760),
+            devlearn.AdaptiveConfig(), adaptive.learner.last_choice,
+            adaptive.learner.situation(760), adaptive.learner.last_choice.recollections[0],
             trial.learner.memory_use, keeper.observation, keeper.outcome, trial.run(3),
             *(agent.Config() for agent in VALUE_AGENTS),
         )
@@ -121,5 +125,5 @@ def test_a_shape_that_cannot_be_is_refused_where_it_is_made(make, says):
 def test_every_class_of_the_module_is_among_these():
     classes = {n for n, c in vars(_core).items() if isinstance(c, type) and not n.startswith("_")}
     others = {"Kind", "Event", "Learner", "Trial", "RandomAgent", "ShortestPath", "SituationMemory"}
-    others |= {"ShortestPathAgent", *(agent.__name__ for agent in VALUE_AGENTS)}
+    others |= {"AdaptiveLearner", "ShortestPathAgent", *(agent.__name__ for agent in VALUE_AGENTS)}
     assert classes <= {*THINGS, *others}

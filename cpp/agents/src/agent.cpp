@@ -1,5 +1,6 @@
 #include "devlearn/agent.hpp"
 
+#include "devlearn/adaptive_agent.hpp"
 #include "devlearn/dyna_q.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/expected_sarsa.hpp"
@@ -33,8 +34,8 @@ std::shared_ptr<Agent> one_of(const AgentState& state, const std::string& source
 }  // namespace
 
 std::shared_ptr<Agent> make_agent(const AgentState& state, const std::string& source) {
-  return one_of<LearnerAgent, RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, DynaQ,
-                PrioritizedSweeping, LrtaStar, RMax>(state, source);
+  return one_of<LearnerAgent, AdaptiveAgent, RandomAgent, QLearning, ExpectedSarsa, SarsaLambda,
+                DynaQ, PrioritizedSweeping, LrtaStar, RMax>(state, source);
 }
 
 }  // namespace devlearn

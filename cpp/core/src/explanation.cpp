@@ -1,8 +1,8 @@
 #include "devlearn/explanation.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "lines.hpp"
 #include "op.hpp"
 
 namespace devlearn {
@@ -19,13 +19,6 @@ const char* name_of(Kind kind) {
     default:
       return "chosen";
   }
-}
-
-template <typename... Values>
-void append(std::string& text, const char* format, Values... values) {
-  char line[160];
-  const int length = std::snprintf(line, sizeof line, format, values...);
-  if (length > 0) text.append(line, std::min<std::size_t>(length, sizeof line - 1));
 }
 
 }  // namespace

@@ -11,14 +11,6 @@
 namespace devlearn {
 namespace {
 
-[[noreturn]] void refuse_situation(SituationId situation) {
-  throw InvalidValue("situation", std::to_string(situation), "a whole number in [0, 2^63 - 1]");
-}
-
-void require_situation(SituationId situation) {
-  if (situation < 0) refuse_situation(situation);
-}
-
 [[noreturn]] void refuse_second_choice() {
   throw InvalidValue("Learner.choose", "a second choice before the first met its outcome",
                      "learn() or cancel() between two choices");

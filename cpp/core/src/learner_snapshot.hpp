@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "devlearn/adaptive.hpp"
 #include "devlearn/detail/fields.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/learner.hpp"
@@ -27,6 +28,14 @@ Learner learner_of(const safetensors::Contents& contents, const std::string& sou
 /// A learner's own snapshot.
 safetensors::Contents contents_of(const Learner& learner);
 
+///@{
+/// The same for an adaptive learner.
+void describe(const std::shared_ptr<const AdaptiveState>& state, safetensors::Contents& contents);
+AdaptiveLearner adaptive_learner_of(const safetensors::Contents& contents,
+                                    const std::string& source);
+safetensors::Contents contents_of(const AdaptiveLearner& learner);
+///@}
+
 /// A generator's state. Throws FileError.
 Random::State random_of(const safetensors::Contents& contents, const std::string& source);
 
@@ -37,6 +46,7 @@ class EntryWriter {
   explicit EntryWriter(safetensors::Contents& contents) : contents_(contents) {}
   void operator()(const std::string& name, double value);
   void operator()(const std::string& name, std::uint64_t value);
+  void operator()(const std::string& name, std::int64_t value);
   void operator()(const std::string& name, int value);
   void operator()(const std::string& name, bool value);
   void operator()(const std::string& name, const std::optional<double>& value);
@@ -44,6 +54,13 @@ class EntryWriter {
   template <typename Enum>
   void operator()(const std::string& name, Enum value, const std::vector<std::string>& names) {
     contents_.metadata[name] = names.at(static_cast<std::size_t>(value));
+  }
+  bool lacks(const std::string&) const { return false; }
+  /// Which of several Defs a variant holds; nothing for the first.
+  template <typename Variant>
+  void alternative(const std::string& name, const Variant& value,
+                   const std::vector<std::string>& kinds) {
+    if (value.index() > 0) contents_.metadata[name] = kinds.at(value.index());
   }
 
  private:
@@ -68,7 +85,13 @@ class EntryReader {
                   const std::vector<std::string>& names) const {
     value = static_cast<Enum>(option(name, names));
   }
+  template <typename Variant>
+  void alternative(const std::string& name, Variant& value,
+                   const std::vector<std::string>& kinds) const {
+    detail::hold(value, has(name) ? option(name, kinds) : 0);
+  }
   bool has(const std::string& name) const { return contents_.metadata.count(name) > 0; }
+  bool lacks(const std::string& name) const { return !has(name); }
 
  private:
   template <typename T>
@@ -86,12 +109,18 @@ void each_entry(Def& def, const std::string& prefix, Entries& entries) {
   detail::each_field<std::remove_const_t<Def>>([&](const auto& field) {
     auto& value = def.*field.member;
     using T = std::decay_t<decltype(value)>;
+    if (field.may_lack && entries.lacks(prefix + field.name)) return;
     if constexpr (std::is_enum_v<T>) {
       entries(prefix + field.name, value, {field.range.names.begin(), field.range.names.end()});
     } else if constexpr (std::is_same_v<T, std::vector<double>>) {
       entries(field.name, value);
     } else if constexpr (std::is_same_v<std::decay_t<decltype(field.range)>, detail::Nested>) {
       each_entry(value, prefix + field.name + ".", entries);
+    } else if constexpr (detail::IsOneOf<std::decay_t<decltype(field.range)>>::value) {
+      const std::string within = prefix + field.name + ".";
+      entries.alternative(within + "kind", value,
+                          {field.range.kinds.begin(), field.range.kinds.end()});
+      std::visit([&](auto& alternative) { each_entry(alternative, within, entries); }, value);
     } else {
       entries(prefix + field.name, value);
     }

@@ -30,6 +30,10 @@ void refuse_count(std::string_view quantity, long long value, long long low, lon
   throw InvalidValue(std::string(quantity), std::to_string(value), detail::whole(low, high).text());
 }
 
+void refuse_situation(std::int64_t situation) {
+  throw InvalidValue("situation", std::to_string(situation), "a whole number in [0, 2^63 - 1]");
+}
+
 void require_size(std::string_view quantity, std::uint64_t size, std::uint64_t expected) {
   if (size != expected) {
     throw InvalidValue(std::string(quantity), std::to_string(size) + " values",

@@ -45,6 +45,9 @@ void EntryWriter::operator()(const std::string& name, double value) {
 void EntryWriter::operator()(const std::string& name, std::uint64_t value) {
   contents_.metadata[name] = std::to_string(value);
 }
+void EntryWriter::operator()(const std::string& name, std::int64_t value) {
+  contents_.metadata[name] = std::to_string(value);
+}
 void EntryWriter::operator()(const std::string& name, int value) {
   contents_.metadata[name] = std::to_string(value);
 }

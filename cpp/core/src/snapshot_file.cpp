@@ -44,6 +44,15 @@ void save(const Learner& learner, const std::string& path) {
   safetensors::write(contents_of(learner), path);
 }
 
+void save(const AdaptiveLearner& learner, const std::string& path) {
+  safetensors::write(contents_of(learner), path);
+}
+
+AdaptiveLearner load_adaptive_learner(const std::string& path) {
+  const std::vector<std::byte> bytes = safetensors::read_file(path);
+  return load_adaptive_learner(bytes.data(), bytes.size(), path);
+}
+
 Learner load_learner(const std::string& path) {
   const std::vector<std::byte> bytes = safetensors::read_file(path);
   return load_learner(bytes.data(), bytes.size(), path);

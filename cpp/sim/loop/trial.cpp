@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "devlearn/adaptive_agent.hpp"
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/learner_agent.hpp"
@@ -67,6 +68,8 @@ Step row(std::int32_t round, const Observation& before, const Choice& choice,
   step.arrived = outcome.arrived;
   step.goal_distance = after.goal_distance;
   step.clearance = after.clearance;
+  step.cost = outcome.cost;
+  step.value = development.value;
   step.event = development.event;
   step.reduced = development.reduced;
   step.explored_count = development.explored_count;
@@ -75,8 +78,14 @@ Step row(std::int32_t round, const Observation& before, const Choice& choice,
   return step;
 }
 
-std::shared_ptr<Agent> paper_agent(const TrialConfig& config, std::uint64_t seed) {
-  return std::make_shared<LearnerAgent>(std::make_shared<Learner>(config.learner, seed));
+std::shared_ptr<Agent> agent_with(const LearnerConfig& config, std::uint64_t seed) {
+  return std::make_shared<LearnerAgent>(std::make_shared<Learner>(config, seed));
+}
+std::shared_ptr<Agent> agent_with(const AdaptiveConfig& config, std::uint64_t seed) {
+  return std::make_shared<AdaptiveAgent>(std::make_shared<AdaptiveLearner>(config, seed));
+}
+std::shared_ptr<Agent> own_agent(const TrialConfig& config, std::uint64_t seed) {
+  return std::visit([seed](const auto& def) { return agent_with(def, seed); }, config.learner);
 }
 
 }  // namespace
@@ -85,6 +94,16 @@ TrialConfig TrialConfig::step5() {
   TrialConfig config;
   config.learner = LearnerConfig::step5();
   return config;
+}
+
+TrialConfig TrialConfig::adaptive() {
+  TrialConfig config;
+  config.learner = AdaptiveConfig{};
+  return config;
+}
+
+int TrialConfig::motion_count() const noexcept {
+  return std::visit([](const auto& def) { return def.motion_count; }, learner);
 }
 
 void TrialConfig::validate() const {
@@ -98,8 +117,8 @@ void TrialConfig::validate() const {
                   720);
   }
   const auto motions = static_cast<long long>(robot.steering_angles.size());
-  if (learner.motion_count != motions) {
-    throw InvalidValue("TrialConfig.learner.motion_count", std::to_string(learner.motion_count),
+  if (motion_count() != motions) {
+    throw InvalidValue("TrialConfig.learner.motion_count", std::to_string(motion_count()),
                        std::to_string(motions) + ", the number of robot.steering_angles");
   }
 }
@@ -111,7 +130,7 @@ bool operator==(const TrialConfig& a, const TrialConfig& b) noexcept {
 // --- the trial ---------------------------------------------------------------------------------
 
 Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed)
-    : Trial(world, config, seed, paper_agent(config, seed)) {}
+    : Trial(world, config, seed, own_agent(config, seed)) {}
 
 Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
              std::shared_ptr<Agent> agent)
@@ -122,16 +141,18 @@ Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
       agent_(std::move(agent)),
       allowed_(std::make_unique<bool[]>(config.robot.steering_angles.size())) {
   if (!agent_) throw InvalidValue("Trial.agent", "null", "an agent");
-  if (const auto paper = learner()) {
-    const int motions = paper->config().motion_count;
-    if (motions != config.learner.motion_count) {
-      throw InvalidValue(
-          "Trial.agent.config.motion_count", std::to_string(motions),
-          std::to_string(config.learner.motion_count) + ", the number of robot.steering_angles");
-    }
-  }
+  if (const auto paper = learner()) require_motions(paper->config().motion_count);
+  if (const auto adaptive = adaptive_learner()) require_motions(adaptive->config().motion_count);
   robot_.require_place(world.def().start, "start");
   here_ = sense(world.def().start);
+}
+
+// An agent of devlearn's own says how many motions it has.
+void Trial::require_motions(int motions) const {
+  if (motions == config_.motion_count()) return;
+  throw InvalidValue(
+      "Trial.agent.config.motion_count", std::to_string(motions),
+      std::to_string(config_.motion_count()) + ", the number of robot.steering_angles");
 }
 
 Step Trial::step() {
@@ -172,8 +193,10 @@ Observation Trial::sense(const Pose& pose) const {
   there.clearance = clearance(pose);
   // Eq. 6
   there.sef = config_.evaluation(there.goal_distance, there.clearance);
-  there.estimate = there.goal_distance / (config_.robot.speed * config_.robot.sample_time);
-  there.motion_count = config_.learner.motion_count;
+  if (!arrived_at(there)) {
+    there.estimate = there.goal_distance / (config_.robot.speed * config_.robot.sample_time);
+  }
+  there.motion_count = config_.motion_count();
   return there;
 }
 
@@ -217,6 +240,7 @@ Outcome Trial::outcome_of(const Observation& after, double smf, bool collided) c
   outcome.collided = collided;
   outcome.arrived = arrived_at(after);
   outcome.estimate = after.estimate;
+  if (collided) outcome.cost += config_.touch_cost;
   return outcome;
 }
 
@@ -347,6 +371,11 @@ bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
 std::shared_ptr<Learner> Trial::learner() const noexcept {
   const LearnerAgent* paper = dynamic_cast<const LearnerAgent*>(agent_.get());
   return paper == nullptr ? nullptr : paper->learner();
+}
+
+std::shared_ptr<AdaptiveLearner> Trial::adaptive_learner() const noexcept {
+  const auto* adaptive = dynamic_cast<const AdaptiveAgent*>(agent_.get());
+  return adaptive == nullptr ? nullptr : adaptive->learner();
 }
 
 }  // namespace devlearn

@@ -179,7 +179,7 @@ std::shared_ptr<Agent> agent_of(const Contents& contents, const LoadOptions& opt
   if (!agent) agent = make_agent(state, source);
   if (agent) return agent;
   throw FileError(source, "agent", excerpt(state.kind),
-                  "learner or random; or give the agent that goes on, or its maker");
+                  "learner, adaptive or random; or give the agent that goes on, or its maker");
 }
 
 Trial trial_of(const Contents& contents, const LoadOptions& options, const std::string& source) {
@@ -218,6 +218,12 @@ std::optional<Record> record_of(const Contents& contents, const std::string& sou
     column = safetensors::values<T>(contents, std::string("record.") + name, shape, source, dtype);
   };
   detail::each_column(Record::step_columns(), [&](auto& column) {
+    if constexpr (column.may_lack()) {
+      if (contents.arrays.count(std::string("record.") + column.name) == 0) {
+        (record.*column.values).assign(steps, std::numeric_limits<double>::quiet_NaN());
+        return;
+      }
+    }
     take(column.name, record.*column.values, {steps}, column.dtype());
   });
   // Of rounds only there are none.

@@ -8,7 +8,15 @@ from typing import NamedTuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from .._core import Learner, SituationGrid, StateEvaluation, Trial, TrialConfig, World
+from .._core import (
+    AdaptiveLearner,
+    Learner,
+    SituationGrid,
+    StateEvaluation,
+    Trial,
+    TrialConfig,
+    World,
+)
 from ..errors import InvalidValue
 from ..record import Record
 
@@ -108,17 +116,18 @@ class PreferenceField(NamedTuple):
 
 def preference_field(
     world: Source,
-    learner: Learner | None = None,
+    learner: Learner | AdaptiveLearner | None = None,
     *,
     grid: SituationGrid | None = None,
     config: TrialConfig | None = None,
 ) -> PreferenceField:
     """Where a learner prefers to go, cell by cell; ``plot_preferences`` draws it.
 
-    In each situation experienced the effective motion of the highest orientation (the first of
-    equals) gives the direction heading + steering angle. A cell's arrow is the mean of these unit
-    vectors over its headings, each weighted by how often that motion was learned: of length 1 where
-    all agree, short where the headings lead different ways.
+    In each situation experienced the best motion (``learner.best``: the effective one of the
+    highest orientation, or the tried one of the least expected loss) gives the direction heading +
+    steering angle. A cell's arrow is the mean of these unit vectors over its headings, each
+    weighted by how often that motion was learned: of length 1 where all agree, short where the
+    headings lead different ways.
 
     ``world`` is best the Trial, whose learner is meant where none is given, or its Record: both
     know the grid that was learned on and the robot's motions. With a World alone ``config`` or
@@ -127,7 +136,9 @@ def preference_field(
     if learner is None and isinstance(world, Trial):
         learner = world.learner
     if learner is None:
-        raise InvalidValue("learner", "none", "a Learner, or a Trial whose agent is one")
+        raise InvalidValue(
+            "learner", "none", "a Learner or AdaptiveLearner, or a Trial whose agent is one"
+        )
     grid = grid_of(world, grid, config)
     angles = config_of(world, config).robot.steering_angles
     motions = learner.config.motion_count
@@ -141,11 +152,10 @@ def preference_field(
             raise InvalidValue("situation", situation, f"of the grid: below {grid.count}")
         x, y, heading = grid.centre(situation)
         cell = cells.setdefault((x, y), [0.0, 0.0, 0])
-        memory = learner.situation(situation)
-        if not memory.effective:
+        motion = learner.best(situation)
+        if motion is None:
             continue
-        best = int(np.argmax(memory.orientation))
-        motion, times = memory.effective[best], memory.times_learned[best]
+        times = _times_learned(learner, situation, motion)
         direction = math.radians(heading + angles[motion])
         cell[0] += times * math.cos(direction)
         cell[1] += times * math.sin(direction)
@@ -159,3 +169,10 @@ def preference_field(
         sums[:, 3] / total,
         sums[:, 4].astype(np.int64),
     )
+
+
+def _times_learned(learner: Learner | AdaptiveLearner, situation: int, motion: int) -> int:
+    if isinstance(learner, AdaptiveLearner):
+        return learner.situation(situation).times[motion]
+    memory = learner.situation(situation)
+    return memory.times_learned[memory.effective.index(motion)]

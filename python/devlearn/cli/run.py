@@ -39,7 +39,7 @@ def add_to(verbs: Any) -> None:
     )
     parser.add_argument("world", help=f"a world file, or one that ships: {', '.join(_shipped())}")
     parser.add_argument(
-        "--preset", default="paper", metavar="NAME", help="paper (default) or step5"
+        "--preset", default="paper", metavar="NAME", help="paper (default), step5 or adaptive"
     )
     parser.add_argument(
         "--config", metavar="FILE", help="a TrialConfig as JSON, instead of a preset"
@@ -201,7 +201,7 @@ def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
         for part in outer:
             place = place.get(part) if isinstance(place, dict) else None
             owner = getattr(owner, part, None)
-        if not equals or not isinstance(place, dict) or isinstance(place.get(last, {}), dict):
+        if not equals or not isinstance(place, dict) or last not in _leaves(place):
             known = ", ".join(_names(config.to_dict()))
             raise InvalidValue("--set", repr(change), f"FIELD=VALUE, where FIELD is one of {known}")
         field = owner.fields()[last]
@@ -224,5 +224,9 @@ def _names(fields: Mapping[str, Any], outer: str = "") -> Iterator[str]:
     for name, value in fields.items():
         if isinstance(value, dict):
             yield from _names(value, f"{outer}{name}.")
-        else:
-            yield outer + name
+    yield from (outer + name for name in _leaves(fields))
+
+
+def _leaves(fields: Mapping[str, Any]) -> list[str]:
+    # `kind` says which class a dict stands for, and is no field of it.
+    return [n for n, value in fields.items() if not isinstance(value, dict) and n != "kind"]

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import plots
-from .._core import Trial, TrialConfig, World
+from .._core import Learner, Trial, TrialConfig, World
 from .._files import made_folder
 from ..analysis.episodes import find_entry_and_window, find_episodes
 from ..errors import InvalidValue
@@ -220,7 +220,7 @@ class Gallery:
 
     def _new_starts(self) -> list[Drawn]:
         learner = self.settled[0].trial.learner
-        assert learner is not None
+        assert isinstance(learner, Learner)
         figure, axes = panels(1, 4, height=2.4)
         needed = []
         for (pose, shortest), ax in zip(places.new_starts(self.world, self.config, 4), axes):

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from .._core import Kind, Learner, RandomAgent, TrialConfig, World
+from .._core import Kind, Learner, LearnerConfig, RandomAgent, TrialConfig, World
 from .._types import Pose
 from . import measures, schedule
 from .measures import Measures
@@ -57,7 +57,8 @@ def execute(job: Mapping[str, Any]) -> Measures:
     else:
         result |= _measure_random(made)
     if job["starts"]:
-        assert made.trial.learner is not None
+        assert isinstance(made.trial.learner, Learner)
+        assert isinstance(config.learner, LearnerConfig)
         learned, fresh = made.trial.learner, Learner(config.learner, job["seed"])
         result["new_starts"] = _rounds_from(world, config, learned, job["starts"])
         result["control:new_starts"] = _rounds_from(world, config, fresh, job["starts"])

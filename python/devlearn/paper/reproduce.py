@@ -108,7 +108,7 @@ def _run(
         return run_all(jobs.execute, planned, journal, workers=workers, what=what)
 
     results = {}
-    for name in schedule.PRESETS:
+    for name in schedule.READINGS:
         config = schedule.preset(name)
         starts = places.new_starts(world, config)
         shortest = places.shortest(world, config)
@@ -124,6 +124,7 @@ def _run(
         runs = measured(planned(config, seeds, starts=starts), f"{name}: main runs")
         by_sigma = {}
         for sigma in schedule.SIGMAS[name]:
+            assert isinstance(config.learner, _core.LearnerConfig)
             if sigma == config.learner.sigma:
                 by_sigma[sigma] = runs
                 continue

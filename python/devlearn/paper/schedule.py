@@ -131,7 +131,8 @@ def _plain(record: Record) -> list[tuple[int, int, bool]]:
 
 # --- section VI -----------------------------------------------------------------------------------
 
-PRESETS = ("paper", "step5")
+READINGS = ("paper", "step5")  # of the paper
+PRESETS = (*READINGS, "adaptive")
 SECTION_VI = Schedule()
 CONTROL_ROUNDS = 60
 SIMILAR_ROUNDS = 100
@@ -145,10 +146,11 @@ RESEEDED = 1000  # seeds of the control for sigma begin here
 
 
 def preset(name: str) -> TrialConfig:
-    """The configuration of a preset, 'paper' or 'step5'. Raises InvalidValue."""
+    """The configuration of a preset, 'paper', 'step5' or 'adaptive'. Raises InvalidValue."""
     if name not in PRESETS:
         raise InvalidValue("preset", repr(name), " or ".join(map(repr, PRESETS)))
-    return TrialConfig.step5() if name == "step5" else TrialConfig.paper()
+    config: TrialConfig = getattr(TrialConfig, name)()
+    return config
 
 
 class Run(NamedTuple):

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.colors import LogNorm, Normalize
 
-from .._core import Learner, SituationGrid, TrialConfig
+from .._core import AdaptiveLearner, Learner, SituationGrid, TrialConfig
 from ..analysis.fields import (
     Source,
     config_of,
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @styled
 def plot_preferences(
     world: Source,
-    learner: Learner | None = None,
+    learner: Learner | AdaptiveLearner | None = None,
     *,
     grid: SituationGrid | None = None,
     config: TrialConfig | None = None,

@@ -42,10 +42,13 @@ auto members_of(const Def& def) {
   } else if constexpr (n == 9) {
     const auto& [a, b, c, d, e, f, g, h, i] = def;
     return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i);
-  } else {
-    static_assert(n == 10, "a line more, please");
+  } else if constexpr (n == 10) {
     const auto& [a, b, c, d, e, f, g, h, i, j] = def;
     return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j);
+  } else {
+    static_assert(n == 12, "a line more, please");
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = def;
+    return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l);
   }
 }
 
@@ -78,6 +81,11 @@ void change(const Field& field, T& value) {
   } else if constexpr (std::is_integral_v<T>) {
     value += 1;
     CHECK(field.range.allows(value));
+  } else if constexpr (IsOneOf<std::decay_t<decltype(field.range)>>::value) {
+    using Other = std::decay_t<decltype(std::get<1>(value))>;
+    Other other;
+    each_field<Other>([&](const auto& inner) { change(inner, other.*inner.member); });
+    value = other;
   } else {
     each_field<T>([&](const auto& inner) { change(inner, value.*inner.member); });
   }

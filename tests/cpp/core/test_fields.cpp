@@ -1,10 +1,13 @@
 #include <doctest/doctest.h>
 
 #include "core/field_laws.hpp"
+#include "devlearn/adaptive.hpp"
 #include "devlearn/evaluation.hpp"
 #include "devlearn/learner.hpp"
 #include "devlearn/snapshot.hpp"
 
+using devlearn::AdaptiveConfig;
+using devlearn::AdaptiveLearner;
 using devlearn::Learner;
 using devlearn::LearnerConfig;
 using devlearn::StateEvaluation;
@@ -12,6 +15,7 @@ using devlearn::StateEvaluation;
 TEST_CASE(
     "every member of the learner's Defs is described, compared, and refused beyond its bounds") {
   field_laws::check_fields<LearnerConfig>();
+  field_laws::check_fields<AdaptiveConfig>();
   field_laws::check_fields<StateEvaluation>();
 }
 
@@ -19,6 +23,9 @@ TEST_CASE("every field of a learner's configuration is saved") {
   const auto config = field_laws::with_every_field_changed<LearnerConfig>();
   const auto bytes = to_bytes(Learner(config, 3));
   CHECK(devlearn::load_learner(bytes.data(), bytes.size()).config() == config);
+  const auto adaptive = field_laws::with_every_field_changed<AdaptiveConfig>();
+  const auto saved = to_bytes(AdaptiveLearner(adaptive, 3));
+  CHECK(devlearn::load_adaptive_learner(saved.data(), saved.size()).config() == adaptive);
 }
 
 TEST_CASE("a range says what it allows as a refusal does") {

@@ -21,9 +21,9 @@ struct Observation {
   double sef = 0.0;            ///< SEF here
   double goal_distance = 0.0;  ///< d_g [m]
   double clearance = 0.0;      ///< d_o [m]
-  double estimate = 0.0;       ///< cost to go at the least: d_g / (v t_s), in steps; at least 0
-  int motion_count = 0;        ///< choose one in 0 ... motion_count - 1
-  AllowedMotions allowed;      ///< of these; valid during the call
+  double estimate = 0.0;   ///< cost to go at the least, in steps: d_g / (v t_s), 0 at the target
+  int motion_count = 0;    ///< choose one in 0 ... motion_count - 1
+  AllowedMotions allowed;  ///< of these; valid during the call
 };
 
 /// What an agent is told about the motion it chose.
@@ -34,7 +34,7 @@ struct Outcome {
   bool collided = false;       ///< the body touched something
   bool arrived = false;        ///< d_g <= goal_radius
   double estimate = 0.0;       ///< cost to go from there, as in Observation
-  double cost = 1.0;           ///< what the step cost: 1
+  double cost = 1.0;           ///< what the step cost: 1, and touch_cost more if collided
   /// -cost
   double reward() const noexcept { return -cost; }
 };

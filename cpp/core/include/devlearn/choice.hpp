@@ -14,6 +14,9 @@ enum class Kind : std::uint8_t {
   kExploit = 1,    ///< winner of orientation and curiosity among M_i, the effective motions
   kExhausted = 2,  ///< all that are allowed were tried and none is effective: drawn from these
   kUnstated = 3,   ///< chosen by an agent that gives no reason
+  kHabit = 4,      ///< as in the best round so far
+  kDeviation = 5,  ///< another than the habit's, tried for what it promises
+  kHeld = 6,       ///< the motion of before, for the situation has not changed
 };
 
 /// A motion to execute: its index in M, and why.

@@ -96,6 +96,7 @@ struct Development {
   int reduced = 0;  ///< motions that reduction development (Eq. 14-17) moved to M-bar_i
   std::int64_t explored_count = 0;   ///< NUM_RM, after it
   std::int64_t effective_count = 0;  ///< NUM_M, after it
+  std::optional<double> value;  ///< what the agent expects to spend from there on, where it says so
 };
 
 /// All that a learner remembers, as arrays: S situations in the order they were first experienced,

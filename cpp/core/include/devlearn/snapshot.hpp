@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "devlearn/adaptive.hpp"
 #include "devlearn/learner.hpp"
 
 namespace devlearn {
@@ -26,5 +27,16 @@ Learner load_learner(const std::string& path);
 Learner load_learner(std::istream& stream);
 Learner load_learner(const std::byte* bytes, std::size_t size,
                      const std::string& source = "snapshot");
+
+///@{
+/// The same for an adaptive learner.
+void save(const AdaptiveLearner& learner, const std::string& path);
+void save(const AdaptiveLearner& learner, std::ostream& stream);
+std::vector<std::byte> to_bytes(const AdaptiveLearner& learner);
+AdaptiveLearner load_adaptive_learner(const std::string& path);
+AdaptiveLearner load_adaptive_learner(std::istream& stream);
+AdaptiveLearner load_adaptive_learner(const std::byte* bytes, std::size_t size,
+                                      const std::string& source = "snapshot");
+///@}
 
 }  // namespace devlearn

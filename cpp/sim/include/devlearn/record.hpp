@@ -23,6 +23,8 @@ struct Step {
   bool arrived = false;
   double goal_distance = 0.0;
   double clearance = 0.0;
+  double cost = 1.0;
+  std::optional<double> value;
   Event event = Event::kNothing;
   std::int32_t reduced = 0;
   std::int64_t explored_count = 0;
@@ -50,6 +52,7 @@ struct Record {
   std::vector<double> sef, smf, smf_used;
   std::vector<std::uint8_t> collided, arrived;
   std::vector<double> goal_distance, clearance;
+  std::vector<double> cost, value;
   std::vector<std::uint8_t> event;
   std::vector<std::int32_t> reduced;
   std::vector<std::int64_t> explored_count, effective_count;
@@ -68,7 +71,7 @@ struct Record {
         column("situation", &R::situation, &Step::situation, from(0),
                "before the step: S_i, in which the motion was chosen"),
         column("motion", &R::motion, &Step::motion, from(0), "index in M"),
-        column("kind", &R::kind, &Step::kind, whole(0, 3), "why it was chosen, a Kind"),
+        column("kind", &R::kind, &Step::kind, whole(0, 6), "why it was chosen, a Kind"),
         column("sef", &R::sef, &Step::sef, finite(), "after the step: SEF(t+1)"),
         column("smf", &R::smf, &Step::smf, finite(), "SEF(t+1) - SEF(t), Eq. 8"),
         column("smf_used", &R::smf_used, &Step::smf_used, finite(),
@@ -81,6 +84,10 @@ struct Record {
                "after the step: d_g [m]"),
         column("clearance", &R::clearance, &Step::clearance, at_least_zero(),
                "after the step: d_o [m]"),
+        column("cost", &R::cost, &Step::cost, or_unknown(0.0),
+               "of the step: 1, and touch_cost more where it collided"),
+        column("value", &R::value, &Step::value, or_unknown(),
+               "after the step: cost to go as the agent expects it; NaN: it does not say"),
         column("event", &R::event, &Step::event, whole(0, 4), "what the outcome changed, an Event"),
         column("reduced", &R::reduced, &Step::reduced, from(0),
                "motions that reduction development removed"),

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <variant>
 #include <vector>
 
+#include "devlearn/adaptive.hpp"
 #include "devlearn/agent.hpp"
 #include "devlearn/detail/fields.hpp"
 #include "devlearn/evaluation.hpp"
@@ -24,12 +26,13 @@ enum class ClearanceSource : std::uint8_t {
 
 /// Everything a trial needs besides the world and the seed; the defaults are the paper's.
 struct TrialConfig {
-  LearnerConfig learner;
+  std::variant<LearnerConfig, AdaptiveConfig> learner;
   StateEvaluation evaluation;
   RobotDef robot;
   ClearanceSource clearance_source = ClearanceSource::kGeometric;
   bool walls_count = false;
   double goal_radius = 0.1;
+  double touch_cost = 5.0;
   double cell_size = 0.25;
   int heading_bins = 12;
 
@@ -39,7 +42,8 @@ struct TrialConfig {
     using C = TrialConfig;
     return described(
         "TrialConfig",
-        field("learner", &C::learner, "", Nested{}, "steps 3-5; its motions are the robot's"),
+        field("learner", &C::learner, "", one_of("learner", "adaptive"),
+              "the paper's steps 3-5, or the adaptive learner; its motions are the robot's"),
         field("evaluation", &C::evaluation, "", Nested{}, "step 2, Eq. 6"),
         field("robot", &C::robot, "", Nested{}, "Eq. 1-2"),
         field("clearance_source", &C::clearance_source, "", names("geometric", "sonar"),
@@ -49,6 +53,9 @@ struct TrialConfig {
               "whether walls count in d_o; the clearance source sonar needs it"),
         field("goal_radius", &C::goal_radius, "", above(0.0, 100.0, "m"),
               "arrived when d_g is no more than this"),
+        later(field("touch_cost", &C::touch_cost, "", closed(0.0, 1e6),
+                    "what a step costs beside 1 where the body touched something; the paper's "
+                    "learner does not look at costs")),
         field("cell_size", &C::cell_size, "", closed(0.001, 1000.0, "m"),
               "side of a cell of the situation grid"),
         field("heading_bins", &C::heading_bins, "", whole(1, 3600),
@@ -59,6 +66,11 @@ struct TrialConfig {
   static TrialConfig paper() { return {}; }
   /// See LearnerConfig::step5.
   static TrialConfig step5();
+  /// The paper's, with an AdaptiveConfig.
+  static TrialConfig adaptive();
+
+  /// N_M of the learner.
+  int motion_count() const noexcept;
 
   /// Throws InvalidValue.
   void validate() const;
@@ -141,8 +153,11 @@ class Trial {
   ///@}
   /// The paper's learner, where that is the agent; null otherwise.
   std::shared_ptr<Learner> learner() const noexcept;
+  /// The adaptive learner, where that is the agent; null otherwise.
+  std::shared_ptr<AdaptiveLearner> adaptive_learner() const noexcept;
 
  private:
+  void require_motions(int motions) const;
   Step tick();
   Observation sense(const Pose& pose) const;
   double clearance(const Pose& pose) const;

@@ -215,7 +215,7 @@ inline Record free_learning(const World& world, const TrialConfig& config, std::
                             int steps) {
   const Robot robot(world, config.robot);
   const Trial trial(world, config, seed);  // for its grid
-  Learner learner(config.learner, seed);
+  Learner learner(std::get<LearnerConfig>(config.learner), seed);
   const Point target = world.def().target;
   const auto sef = [&](const Pose& pose, double to_obstacles) {
     return config.evaluation(std::sqrt((pose.x - target.x) * (pose.x - target.x) +

@@ -35,9 +35,9 @@ TEST_CASE("a configuration's file says any fields, and leaves the others at thei
   CHECK(loaded("{}") == TrialConfig{});
   CHECK(loaded(R"({"learner": {}, "robot": {"track": null}})") == TrialConfig{});
   TrialConfig config;
-  config.learner.motion_count = 2;
-  config.learner.sigma = 0.25;
-  config.learner.when_exhausted = WhenExhausted::kWander;
+  std::get<LearnerConfig>(config.learner).motion_count = 2;
+  std::get<LearnerConfig>(config.learner).sigma = 0.25;
+  std::get<LearnerConfig>(config.learner).when_exhausted = WhenExhausted::kWander;
   config.evaluation.a3 = 4.0;
   config.robot.track = 0.3;
   config.robot.steering_angles = {-45.0, 45.5};

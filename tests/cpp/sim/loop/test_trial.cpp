@@ -446,8 +446,10 @@ TEST_CASE("an agent is told before each choice and after each motion what the re
     CHECK(told[i].collided == static_cast<bool>(record.collided[i]));
     CHECK(told[i].arrived == static_cast<bool>(record.arrived[i]));
     if (i + 1 < 400) CHECK(told[i].estimate == asked[i + 1].estimate);
-    CHECK(told[i].cost == 1.0);
-    CHECK(told[i].reward() == -1.0);
+    CHECK(told[i].cost == (told[i].collided ? 6.0 : 1.0));
+    CHECK(told[i].reward() == -told[i].cost);
+    CHECK(record.cost[i] == told[i].cost);
+    CHECK(std::isnan(record.value[i]));
     CHECK(record.kind[i] == static_cast<int>(Kind::kExploit));
     CHECK(record.explored_count[i] == 0);
   }
@@ -701,10 +703,11 @@ TEST_CASE("a configuration out of range is refused by the name of its field") {
   refused([](TrialConfig& c) { c.cell_size = 1001.0; }, "TrialConfig.cell_size", "1001");
   refused([](TrialConfig& c) { c.heading_bins = 0; }, "TrialConfig.heading_bins", "0");
   refused([](TrialConfig& c) { c.heading_bins = 3601; }, "TrialConfig.heading_bins", "3601");
-  refused([](TrialConfig& c) { c.learner.eta = 1.0; }, "LearnerConfig.eta", "1");
+  refused([](TrialConfig& c) { std::get<LearnerConfig>(c.learner).eta = 1.0; }, "LearnerConfig.eta",
+          "1");
   refused([](TrialConfig& c) { c.evaluation.a2 = -1.0; }, "StateEvaluation.a2", "-1");
-  refused([](TrialConfig& c) { c.learner.motion_count = 4; }, "TrialConfig.learner.motion_count",
-          "4");
+  refused([](TrialConfig& c) { std::get<LearnerConfig>(c.learner).motion_count = 4; },
+          "TrialConfig.learner.motion_count", "4");
   refused([](TrialConfig& c) { c.clearance_source = ClearanceSource::kSonar; },
           "TrialConfig.walls_count", "false with clearance_source sonar");
   refused(
@@ -719,13 +722,13 @@ TEST_CASE("configurations are equal when every field is") {
   const TrialConfig config;
   CHECK(config == TrialConfig::paper());
   CHECK(config != TrialConfig::step5());
-  CHECK(TrialConfig::step5().learner == LearnerConfig::step5());
+  CHECK(std::get<LearnerConfig>(TrialConfig::step5().learner) == LearnerConfig::step5());
   const auto differs = [&](auto change) {
     TrialConfig other;
     change(other);
     CHECK(other != config);
   };
-  differs([](TrialConfig& c) { c.learner.eta = 0.1; });
+  differs([](TrialConfig& c) { std::get<LearnerConfig>(c.learner).eta = 0.1; });
   differs([](TrialConfig& c) { c.evaluation.a1 = 1.0; });
   differs([](TrialConfig& c) { c.robot.speed = 0.2; });
   differs([](TrialConfig& c) { c.clearance_source = ClearanceSource::kSonar; });

@@ -31,7 +31,7 @@ TrialConfig sonar_config() {
   TrialConfig config = TrialConfig::step5();
   config.clearance_source = ClearanceSource::kSonar;
   config.walls_count = true;
-  config.learner.sigma = 0.123456789012345678;
+  std::get<LearnerConfig>(config.learner).sigma = 0.123456789012345678;
   return config;
 }
 
@@ -412,7 +412,7 @@ TEST_CASE("a record that does not fit is not saved") {
   CHECK(refused([](Record& r) { r.rounds[0].steps -= 1; }) == "record.rounds.steps");
   CHECK(refused([](Record& r) { r.rounds[1].steps += 1000; }) == "record.rounds[1].steps");
   CHECK(refused([](Record& r) { r.rounds[1].round = 0; }) == "record.rounds[1].round");
-  CHECK(refused([](Record& r) { r.kind[5] = 4; }) == "record.kind[5]");
+  CHECK(refused([](Record& r) { r.kind[5] = 7; }) == "record.kind[5]");
   CHECK(refused([](Record& r) { r.motion[2] = -1; }) == "record.motion[2]");
   check_refused([&] { to_bytes(lived.trial, {nullptr, true, "\xff"}); }, "note", "?");
 }

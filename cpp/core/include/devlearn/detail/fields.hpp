@@ -7,6 +7,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "devlearn/error.hpp"
@@ -100,6 +101,39 @@ constexpr List list(WholeNumbers count, Interval each) { return {count, each}; }
 /// Another Def, which has laws of its own.
 struct Nested {};
 
+/// One of several Defs, a std::variant of them. Where it is written down as text, the entry `kind`
+/// says by name which; where that is missing, it is the first.
+template <std::size_t N>
+struct OneOf {
+  std::array<const char*, N> kinds;
+};
+template <typename... Kind>
+constexpr OneOf<sizeof...(Kind)> one_of(Kind... kind) {
+  return {{kind...}};
+}
+template <typename Range>
+struct IsOneOf : std::false_type {};
+template <std::size_t N>
+struct IsOneOf<OneOf<N>> : std::true_type {};
+
+/// Makes a variant of Defs hold the one of this place, by its defaults.
+template <std::size_t I = 0, typename... Defs>
+void hold(std::variant<Defs...>& defs, std::size_t place) {
+  if constexpr (I < sizeof...(Defs)) {
+    if (I == place) {
+      defs.template emplace<I>();
+    } else {
+      hold<I + 1>(defs, place);
+    }
+  }
+}
+template <typename... Defs>
+std::string owners_of(const std::variant<Defs...>*) {
+  std::string text;
+  ((text += (text.empty() ? "a " : " or ") + std::string(Defs::fields().owner)), ...);
+  return text;
+}
+
 inline std::string_view unit_of(const Interval& range) { return range.unit; }
 inline std::string_view unit_of(const OrNone& range) { return range.number.unit; }
 inline std::string_view unit_of(const List& range) { return range.each.unit; }
@@ -119,11 +153,14 @@ struct Field {
   T Def::*member;
   const char* symbol;  ///< the paper's, or nothing
   Range range;
-  const char* doc;  ///< without a full stop
+  const char* doc;        ///< without a full stop
+  bool may_lack = false;  ///< whether files of earlier builds have no entry of it: its default then
 
   std::string allowed() const {
     if constexpr (std::is_same_v<Range, Nested>) {
       return std::string("a ") + T::fields().owner;
+    } else if constexpr (IsOneOf<Range>::value) {
+      return owners_of(static_cast<const T*>(nullptr));
     } else {
       return range.text();
     }
@@ -133,7 +170,14 @@ struct Field {
 template <typename Def, typename T, typename Range>
 constexpr Field<Def, T, Range> field(const char* name, T Def::*member, const char* symbol,
                                      Range range, const char* doc) {
-  return {name, member, symbol, range, doc};
+  return {name, member, symbol, range, doc, false};
+}
+
+/// The same field, which files of earlier builds lack.
+template <typename Field>
+constexpr Field later(Field field) {
+  field.may_lack = true;
+  return field;
 }
 
 /// A Def's fields in their order, and its name.
@@ -181,6 +225,8 @@ void require_fields(const Def& def) {
     using Range = std::decay_t<decltype(field.range)>;
     if constexpr (std::is_same_v<Range, Nested>) {
       value.validate();
+    } else if constexpr (IsOneOf<Range>::value) {
+      std::visit([](const auto& one) { one.validate(); }, value);
     } else if constexpr (std::is_same_v<Range, List>) {
       require_list(owner, field.name, field.range, value);
     } else if (!field.range.allows(value)) {
@@ -189,7 +235,7 @@ void require_fields(const Def& def) {
       } else if constexpr (std::is_same_v<Range, OrNone>) {
         refuse(quantity(owner, field.name), to_text(*value), field.allowed());
       } else {
-        refuse(quantity(owner, field.name), std::to_string(static_cast<int>(value)),
+        refuse(quantity(owner, field.name), std::to_string(static_cast<long long>(value)),
                field.allowed());
       }
     }

@@ -45,6 +45,13 @@ inline void require_count(std::string_view quantity, long long value, long long 
   if (value < low || value > high) refuse_count(quantity, value, low, high);
 }
 
+[[noreturn]] void refuse_situation(std::int64_t situation);
+
+/// Throws InvalidValue for a negative situation.
+inline void require_situation(std::int64_t situation) {
+  if (situation < 0) refuse_situation(situation);
+}
+
 /// Throws InvalidValue unless there are so many values.
 void require_size(std::string_view quantity, std::uint64_t size, std::uint64_t expected);
 

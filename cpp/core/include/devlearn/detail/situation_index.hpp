@@ -19,15 +19,30 @@ class SituationIndex {
 
   /// The next number, for a situation that has none.
   std::uint32_t add(SituationId situation) {
-    if (2 * (ids_.size() + 1) > buckets_.size()) grow();
+    if (2 * (ids_.size() + 1) > buckets_.size()) reserve(ids_.size() + 1);
     const auto number = static_cast<std::uint32_t>(ids_.size());
     ids_.push_back(situation);
     buckets_[bucket_of(situation)] = number;
     return number;
   }
 
+  /// Makes room for so many, so that add() allocates nothing.
+  void reserve(std::size_t situations) {
+    ids_.reserve(situations);
+    std::size_t count = buckets_.empty() ? 64 : buckets_.size();
+    while (2 * situations > count) count *= 2;
+    if (count > buckets_.size()) spread(count);
+  }
+
   SituationId id(std::uint32_t number) const noexcept { return ids_[number]; }
   std::size_t size() const noexcept { return ids_.size(); }
+  const std::vector<SituationId>& ids() const noexcept { return ids_; }  ///< in their order
+  std::size_t bytes_used() const noexcept {
+    return ids_.size() * sizeof(SituationId) + buckets_.size() * sizeof(std::uint32_t);
+  }
+  std::size_t bytes() const noexcept {
+    return ids_.capacity() * sizeof(SituationId) + buckets_.size() * sizeof(std::uint32_t);
+  }
 
  private:
   // Where it is, or would be.
@@ -41,8 +56,8 @@ class SituationIndex {
     }
     return bucket;
   }
-  void grow() {
-    buckets_.assign(buckets_.empty() ? 64 : 2 * buckets_.size(), kAbsent);
+  void spread(std::size_t buckets) {
+    buckets_.assign(buckets, kAbsent);
     for (std::uint32_t n = 0; n < ids_.size(); ++n) buckets_[bucket_of(ids_[n])] = n;
   }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -23,6 +25,18 @@ constexpr Interval finite() {
 /// Numbers from 0 on, infinity too.
 constexpr Interval at_least_zero() {
   return {0.0, std::numeric_limits<double>::infinity(), true, true, ""};
+}
+
+/// Finite numbers from `low` on, or NaN: unknown, as in files of builds that had no such column.
+struct OrUnknown {
+  Interval number;
+
+  bool allows(double value) const { return std::isnan(value) || number.allows(value); }
+  std::string text() const { return number.text() + ", or nan"; }
+};
+constexpr OrUnknown or_unknown() { return {finite()}; }
+constexpr OrUnknown or_unknown(double low) {
+  return {{low, std::numeric_limits<double>::infinity(), true, false, ""}};
 }
 
 /// Whole numbers from `low` to the largest of their type.
@@ -49,8 +63,15 @@ struct Column {
     if constexpr (std::is_same_v<T, double>) return "F64";
   }
 
+  /// Whether files of earlier builds may lack it.
+  static constexpr bool may_lack() { return std::is_same_v<Range, OrUnknown>; }
+
   void append(Record& record, const Row& row) const {
-    (record.*values).push_back(static_cast<T>(row.*of));
+    if constexpr (std::is_same_v<Member, std::optional<T>>) {
+      (record.*values).push_back((row.*of).value_or(std::numeric_limits<T>::quiet_NaN()));
+    } else {
+      (record.*values).push_back(static_cast<T>(row.*of));
+    }
   }
 
   /// Throws InvalidValue unless each of the values may stand here.
@@ -59,7 +80,7 @@ struct Column {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (range.allows(all[i])) continue;
       const std::string quantity = "record." + std::string(name) + "[" + std::to_string(i) + "]";
-      if constexpr (std::is_same_v<Range, Interval>) {
+      if constexpr (std::is_same_v<Range, Interval> || may_lack()) {
         refuse(quantity, to_text(all[i]), range.text());
       } else {
         const long long most = std::min<long long>(range.high, std::numeric_limits<T>::max());
