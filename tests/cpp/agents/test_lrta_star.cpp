@@ -65,6 +65,36 @@ TEST_CASE("without an estimate LRTA* becomes optimal, too, after more steps") {
   CHECK(with_estimate < without);
 }
 
+TEST_CASE("LRTA* looks ahead along every motion that it tried, not the last one alone") {
+  // Motion 0 leads from 1 to 2, motion 1 to 3; what lies behind 2 turns out to be far.
+  LrtaStar agent;
+  const auto step = [&](SituationId from, int motion, SituationId to, double estimate) {
+    const bool allowed[2] = {motion == 0, motion == 1};
+    Observation seen;
+    seen.situation = from;
+    seen.motion_count = 2;
+    seen.estimate = 2.0;
+    seen.allowed = allowed;
+    agent.choose(seen);
+    Outcome outcome;
+    outcome.situation = to;
+    outcome.estimate = estimate;
+    agent.observe(outcome);
+  };
+  step(1, 0, 2, 1.0);
+  step(1, 1, 3, 1.0);
+  CHECK(*agent.value(1, 0) == -2.0);
+  step(2, 0, 4, 50.0);  // and its motion 1 is not allowed
+  CHECK(*agent.value(1, 0) == -2.0);
+  Observation seen;
+  seen.situation = 1;
+  seen.motion_count = 2;
+  seen.estimate = 2.0;
+  CHECK(agent.choose(seen).motion == 1);
+  CHECK(*agent.value(1, 0) == -52.0);
+  CHECK(*agent.value(1, 1) == -2.0);
+}
+
 TEST_CASE("LRTA* believes what a motion last led to") {
   LrtaStar agent;
   Observation seen;

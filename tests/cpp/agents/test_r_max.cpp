@@ -106,6 +106,31 @@ TEST_CASE("a motion is known after m visits, is counted no further, and the best
   }
 }
 
+TEST_CASE("after every step a known motion is worth its cost and the best of where it leads") {
+  const GridWorld world({"S.......", ".######.", "........", ".####.#.", "...G..#."});
+  RMax agent({}, 1);
+  int cell = world.start, known = 0, off = 0;
+  for (int step = 0; step < 3000; ++step) {
+    const int motion = agent.choose(world.observation(cell)).motion;
+    const Outcome outcome = world.outcome(cell, motion);
+    agent.observe(outcome);
+    cell = outcome.arrived ? world.start : static_cast<int>(outcome.situation);
+    if (step % 10 != 0) continue;
+    for (int i = 0; i < 4 * world.cells(); ++i) {
+      if (agent.visits(i / 4, i % 4) < RMaxConfig{}.m) continue;
+      const int next = world.after(i / 4, i % 4);
+      double best = next == world.goal ? 0.0 : *agent.value(next, 0);
+      for (int then = 1; next != world.goal && then < 4; ++then) {
+        best = std::max(best, *agent.value(next, then));
+      }
+      ++known;
+      if (std::abs(*agent.value(i / 4, i % 4) - (best - 1.0)) > 1e-3) ++off;
+    }
+  }
+  CHECK(known > 10000);
+  CHECK(off == 0);
+}
+
 TEST_CASE("the estimate as prior leaves out what cannot be on a short way") {
   const GridWorld field({"..........", "..........", "S........G", "..........", ".........."});
   const auto motions_tried = [&](FirstValue prior) {
