@@ -790,6 +790,9 @@ class AdaptiveConfig:
     enough
         Times the least cost of a round, after which a round goes home by what is known; in [1,
         1e+09].
+    refine
+        Whether optimism falls where no deviation from the habit promises more, and a round that
+        deviated goes on by values, not by habit; true or false.
     curious_every
         Rounds by habit between two looks for what has opened; 0: never; a whole number in [0,
         1000000].
@@ -823,6 +826,7 @@ class AdaptiveConfig:
         tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         detour: typing.SupportsFloat | typing.SupportsIndex = 20.0,
         enough: typing.SupportsFloat | typing.SupportsIndex = 3.0,
+        refine: bool = True,
         curious_every: typing.SupportsIndex = 0,
         stale_after: typing.SupportsIndex = 100,
         sweep_limit: typing.SupportsIndex = 0,
@@ -881,6 +885,11 @@ class AdaptiveConfig:
     def recollections(self) -> int:
         """
         Mappings that are recalled after each decision; a whole number in [0, 1000000].
+        """
+    @property
+    def refine(self) -> bool:
+        """
+        Whether optimism falls where no deviation from the habit promises more, and a round that deviated goes on by values, not by habit; true or false.
         """
     @property
     def stale_after(self) -> int:

@@ -67,6 +67,7 @@ EXPECTED = {
         "tolerance": (NO, NO, "in [0, 1e+06]", 0.0),
         "detour": (NO, NO, "in [0, 1e+09]", 20.0),
         "enough": (NO, NO, "in [1, 1e+09]", 3.0),
+        "refine": (NO, NO, "true or false", True),
         "curious_every": (NO, NO, WHOLE.format(0, 1_000_000), 0),
         "stale_after": (NO, NO, WHOLE.format(1, 1_000_000_000), 100),
         "sweep_limit": (NO, NO, WHOLE.format(0, 2**31 - 1), 0),

@@ -275,7 +275,7 @@ std::optional<Choice> AdaptiveLearner::settled_choice(Number here, AllowedMotion
     if (stale(mapping(here, motion))) return Choice{motion, Kind::kDeviation};
     return for_values(here, motion);
   }
-  if (round_.by_habit && round_.deviated) {
+  if (round_.by_habit && round_.deviated && config_.refine) {
     const int before = decided(here) ? path_[at_[here].decided].motion : -1;
     if (possible(before)) return for_values(here, before);
   } else if (round_.by_habit) {
@@ -337,7 +337,7 @@ void AdaptiveLearner::remember_choice(Number here, AllowedMotions allowed) {
   last_.situation = here;
   last_.loss = at_[here].loss;
   last_.deviation = deviation_here(here);
-  last_.habit = round_.by_habit && !round_.deviated ? habit_motion(here) : -1;
+  last_.habit = goes_by_habit() ? habit_motion(here) : -1;
   last_.by_values = at_[here].by_values;
   last_.homeward = homeward();
   for (int m = 0; m < config_.motion_count; ++m) {
@@ -547,7 +547,7 @@ void AdaptiveLearner::start_round(Number here, double estimate) {
     return;
   }
   if (look_for_target()) return;
-  if (optimism_ > 1.0 && !falling_.under_way()) {
+  if (config_.refine && optimism_ > 1.0 && !falling_.under_way()) {
     lower_optimism();
     if (!falling_.under_way()) look_for_target();
   }

@@ -103,7 +103,7 @@ AdaptiveExplanation AdaptiveLearner::explain(SituationId situation, AllowedMotio
   if (met) {
     if (decision_.situation == static_cast<int>(here)) why.held = decision_.motion;
     why.deviation = deviation_here(here);
-    if (round_.by_habit && !round_.deviated) why.habit = habit_motion(here);
+    if (goes_by_habit()) why.habit = habit_motion(here);
   }
   // What can be told without a draw.
   const auto sure = std::find(why.probability.begin(), why.probability.end(), 1.0);

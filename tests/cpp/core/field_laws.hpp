@@ -46,9 +46,9 @@ auto members_of(const Def& def) {
     const auto& [a, b, c, d, e, f, g, h, i, j] = def;
     return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j);
   } else {
-    static_assert(n == 12, "a line more, please");
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = def;
-    return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l);
+    static_assert(n == 13, "a line more, please");
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = def;
+    return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l, &m);
   }
 }
 

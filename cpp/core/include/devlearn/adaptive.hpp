@@ -30,6 +30,7 @@ struct AdaptiveConfig {
   double tolerance = 0.0;
   double detour = 20.0;
   double enough = 3.0;
+  bool refine = true;
   int curious_every = 0;
   int stale_after = 100;
   int sweep_limit = 0;
@@ -58,6 +59,9 @@ struct AdaptiveConfig {
               "what a deviation may cost beyond the habit before the round goes on by values"),
         field("enough", &C::enough, "", closed(1.0, 1e9),
               "times the least cost of a round, after which a round goes home by what is known"),
+        field("refine", &C::refine, "", Truth{},
+              "whether optimism falls where no deviation from the habit promises more, and a round "
+              "that deviated goes on by values, not by habit"),
         field("curious_every", &C::curious_every, "", whole(0, 1'000'000),
               "rounds by habit between two looks for what has opened; 0: never"),
         field("stale_after", &C::stale_after, "", whole(1, 1'000'000'000),
@@ -459,6 +463,9 @@ class AdaptiveLearner {
   static bool on(const std::vector<Waypoint>& path, std::int32_t place, Number here) noexcept {
     const auto i = static_cast<std::size_t>(place);
     return place >= 0 && i < path.size() && path[i].situation == here;
+  }
+  bool goes_by_habit() const noexcept {
+    return round_.by_habit && !(round_.deviated && config_.refine) && !round_.curious;
   }
   int deviation_here(Number here) const noexcept;
   void start_round(Number here, double estimate);
