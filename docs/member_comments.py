@@ -31,7 +31,7 @@ def commented(header):
     for line in header.splitlines():
         if match := re.match(r"struct (\w+) \{|\}", line):
             struct = match[1]
-        member = re.fullmatch(r"  [\w:<>]+ (\w+)( = [^;]*|\{[^;]*\})?;", line)
+        member = re.fullmatch(r"  [\w:<>]+(?:, [\w:<>]+)* (\w+)( = [^;]*|\{[^;]*\})?;", line)
         doc = member and docs.get(struct, {}).get(member[1])
         yield f"{line}  ///< {doc}" if doc else line
 
