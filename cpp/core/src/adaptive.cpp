@@ -214,7 +214,7 @@ Choice AdaptiveLearner::choose(SituationId situation, double estimate, AllowedMo
   const Number here = meet(situation, estimate);
   if (round_.arrived) {  // and no end_round: it goes on from the goal
     round_.over = true;
-    round_.by_habit = false;
+    round_.by_habit = round_.curious = false;
   }
   if (decision_.situation >= 0) {
     const bool same = decision_.situation == static_cast<int>(here);
@@ -526,6 +526,7 @@ void AdaptiveLearner::count_round(const AdaptiveRound& round, bool arrived) {
   habit_.cost = round.cost;
   habit_.start = round.start;
   habit_.since_look = 0;
+  habit_.looking = false;
   if (!round.deviated) habit_.since = 0;
 }
 
@@ -603,6 +604,7 @@ void AdaptiveLearner::drop_habit() {
   habit_.start = -1;
   habit_.since = 0;
   habit_.since_look = 0;
+  habit_.looking = false;
   forget_trials();
   habit_path_.clear();
 }

@@ -242,6 +242,54 @@ TEST_CASE("curious rounds find what has opened, and without them it is not notic
   CHECK(found == 0);
 }
 
+TEST_CASE("what was once in the way is forgotten in curious rounds only, not after their arrival") {
+  AdaptiveConfig config = four_motions();
+  config.curious_every = 1;
+  config.stale_after = 1;
+  AdaptiveLearner learner(config, 4);
+  rounds(learner, 60, false);
+  Corridor at;
+  at.door = false;
+  learner.begin_round();
+  const auto until = [&](auto found) {
+    while (!at.arrived() && !found()) go(learner, at);
+  };
+  go(learner, at);
+  while (!learner.state().round.curious) {
+    until([] { return false; });
+    learner.end_round(true);
+    at.place = 0;
+    learner.begin_round();
+    go(learner, at);
+  }
+  until([] { return false; });
+  // On from the goal, without an end, by a motion that was once in vain.
+  const AdaptiveState state = learner.state();
+  std::size_t stale = 0;
+  while (state.arrays.interrupted[stale] == 0 || state.arrays.interrupted[stale] == state.rounds) {
+    ++stale;
+  }
+  const SituationId situation = state.arrays.situation[stale / 4];
+  const auto motion = static_cast<int>(stale % 4);
+  const std::uint32_t times = learner.situation(situation).times[motion];
+  bool only[4]{};
+  only[motion] = true;
+  learner.choose(situation, 9.0, only);
+  learner.learn(1.0, situation + 1, 8.0);
+  CHECK(learner.situation(situation).times[motion] == times + 1);
+}
+
+TEST_CASE("a look for what has opened ends with the habit that it was for") {
+  AdaptiveConfig config = four_motions();
+  config.curious_every = 1;
+  config.sweep_limit = 1;
+  AdaptiveLearner learner(config, 4);
+  for (int i = 0; i < 300 && !learner.state().habit.looking; ++i) rounds(learner, 1, false);
+  REQUIRE(learner.state().habit.looking);
+  REQUIRE(learner.forget(10));
+  CHECK_FALSE(learner.state().habit.looking);
+}
+
 TEST_CASE("what was learned elsewhere, or in free steps, leaves the habit alone") {
   AdaptiveLearner learner(four_motions(), 6);
   rounds(learner, 300);
