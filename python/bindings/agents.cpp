@@ -25,11 +25,6 @@ struct Type {
 constexpr Type kTypes[] = {{"F64", "f8"}, {"I64", "i8"}, {"U64", "u8"}, {"I32", "i4"},
                            {"U32", "u4"}, {"U16", "u2"}, {"U8", "u1"},  {"BOOL", "b1"}};
 
-// A class as files name it. Nothing is imported by this name.
-std::string name_of(const py::object& type) {
-  return py::str(py::str("{}:{}").format(type.attr("__module__"), type.attr("__qualname__")));
-}
-
 [[noreturn]] void refuse_entry(const std::string& name, const py::object& value) {
   throw InvalidValue("agent.state()[" + name + "]", shown(py::type::of(value)) + " " + shown(value),
                      "a str, a number, or a numpy array of float64, int64, uint64, int32, uint32, "
@@ -206,11 +201,7 @@ void require_own_methods(const py::object& agent, std::initializer_list<const ch
 template <class T>
 std::shared_ptr<T> held(const py::object& object) {
   if (py::type::of(object).is(py::type::of<T>())) return object.cast<std::shared_ptr<T>>();
-  const std::shared_ptr<py::object> owner(new py::object(object), [](const py::object* owned) {
-    const Gil gil;
-    delete owned;
-  });
-  return {owner, object.cast<T*>()};
+  return {shared_object(object), object.cast<T*>()};
 }
 
 // One of devlearn's own, or null.
@@ -251,6 +242,17 @@ py::handle own_type(const Agent& agent, Agents<A...>) {
 }
 
 }  // namespace
+
+std::string name_of(const py::object& named) {
+  return py::str(py::str("{}:{}").format(named.attr("__module__"), named.attr("__qualname__")));
+}
+
+std::shared_ptr<const py::object> shared_object(const py::object& object) {
+  return {new py::object(object), [](const py::object* owned) {
+            const Gil gil;
+            delete owned;
+          }};
+}
 
 py::dict dict_of(const AgentState& state) {
   py::dict result;

@@ -23,6 +23,11 @@ using OwnAgents = Agents<RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, Dyn
 /// The class of one of them, without its module; null for any other.
 const char* own_name(const Agent& agent);
 
+/// A class or a function as files name it, module:name. Nothing is imported by this name.
+std::string name_of(const py::object& named);
+/// Shared with C++, whatever thread lets go of it.
+std::shared_ptr<const py::object> shared_object(const py::object& object);
+
 /// Whoever Python names as a trial's agent.
 std::shared_ptr<Agent> as_agent(const py::object& agent);
 /// The reverse.

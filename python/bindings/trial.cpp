@@ -12,6 +12,7 @@
 #include "bindings.hpp"
 #include "config.hpp"
 #include "loop/config_file.hpp"
+#include "parts.hpp"
 #include "record_object.hpp"
 
 namespace devlearn::python {
@@ -37,7 +38,8 @@ RecordObject as_record(const Trial& trial, Record&& record) {
   return RecordObject(py::module_::import("devlearn.record")
                           .attr("Record")
                           .attr("_of_trial")(columns(std::move(record)), trial.world(),
-                                             trial.config(), trial.seed(), agent_of(trial)));
+                                             trial.config(), trial.seed(), agent_of(trial),
+                                             names_of(trial.parts())));
 }
 
 using Clock = std::chrono::steady_clock;
@@ -149,20 +151,31 @@ void bind_trial(py::module_& m) {
       "observe(outcome). If it has them, these are called, too: begin_round(), before the first\n"
       "choice of a round; end_round(arrived), True where path learning arrives, False where the\n"
       "next round begins; cancel(), where its motion was refused. With state() -> dict of arrays\n"
-      "and a classmethod from_state(dict) it is saved with the trial. Raises InvalidValue.\n\n"
+      "and a classmethod from_state(dict) it is saved with the trial.\n"
+      "evaluation: a callable of Senses that gives SEF in place of Eq. 6, or an array of SEFs, one "
+      "a\n"
+      "situation of the grid; situations: a callable of Senses that gives ids in place of the "
+      "grid's.\n"
+      "Raises InvalidValue.\n\n"
       "A phase that Ctrl-C or an exception ends leaves what it finished in `interrupted`. Trials "
       "in\n"
       "several threads run at once. A trial that one thread runs, its learner, and its agent of\n"
       "devlearn's are refused to others meanwhile, and for good to a child forked then.");
   cls.attr("interrupted") = py::none();
   cls.def(py::init([](const World& world, const std::optional<TrialConfig>& given,
-                      Whole<SeedTag> seed, const py::object& agent) {
+                      Whole<SeedTag> seed, const py::object& agent, const py::object& evaluation,
+                      const py::object& situations) {
             const TrialConfig config = given.value_or(TrialConfig{});
-            if (agent.is_none()) return std::make_unique<Trial>(world, config, seed.value);
-            return std::make_unique<Trial>(world, config, seed.value, as_agent(agent));
+            TrialParts parts = parts_from(evaluation, situations);
+            if (agent.is_none()) {
+              return std::make_unique<Trial>(world, config, seed.value, std::move(parts));
+            }
+            return std::make_unique<Trial>(world, config, seed.value, as_agent(agent),
+                                           std::move(parts));
           }),
           py::arg("world"), py::arg("config") = py::none(), py::arg("seed") = 0,
-          py::arg("agent") = py::none());
+          py::arg("agent") = py::none(), py::kw_only(), py::arg("evaluation") = py::none(),
+          py::arg("situations") = py::none());
   cls.def("__repr__", [](const py::object& self) {
     return py::str("<devlearn.Trial: world {!r}, seed {}, round {}, at ({:.4g}, {:.4g}, {:.4g})>")
         .format(self.attr("world").attr("name"), self.attr("seed"), self.attr("round"),
@@ -235,6 +248,11 @@ void bind_trial(py::module_& m) {
           },
           "The Learner or AdaptiveLearner, where one is the agent; None otherwise.")
       .def_property_readonly("agent", &agent_of, "Whoever chooses.")
+      .def_property_readonly("evaluation", &evaluation_of,
+                             "The callable or array that stands in place of Eq. 6; None for Eq. 6.")
+      .def_property_readonly("situations", &situations_of,
+                             "The callable that stands in place of the grid's situations; None for "
+                             "the grid's.")
       .def_property_readonly("world", &Trial::world, py::return_value_policy::copy, "The World.")
       .def_property_readonly("robot", &Trial::robot, py::return_value_policy::reference_internal,
                              "The Robot.")

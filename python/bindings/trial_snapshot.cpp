@@ -5,7 +5,7 @@
 
 #include "agents.hpp"
 #include "bindings.hpp"
-#include "devlearn/random_agent.hpp"
+#include "parts.hpp"
 #include "record_object.hpp"
 
 namespace devlearn::python {
@@ -48,6 +48,18 @@ py::bytes snapshot_bytes(const Trial& trial, const py::object& record, bool with
   return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
+LoadOptions options_of(const py::object& agent, const py::object& evaluation,
+                       const py::object& situations) {
+  LoadOptions options = load_options(agent);
+  options.parts = parts_from(evaluation, situations);
+  return options;
+}
+
+// What its snapshot names and does not hold.
+py::object evaluation_to_keep(const Trial& trial) {
+  return trial.parts().evaluation.function ? evaluation_of(trial) : py::none();
+}
+
 TrialSnapshot from_bytes(const py::bytes& bytes, const LoadOptions& options,
                          const std::string& source) {
   const std::string_view view = bytes;
@@ -62,14 +74,13 @@ void bind_trial_snapshot(py::module_& m) {
       "record_in_snapshot",
       [](const py::object& path) -> py::object {
         const std::string source = file_path(path);
-        // A record does not depend on the agent.
-        TrialSnapshot snapshot = [&] {
+        RecordSnapshot snapshot = [&] {
           const NoGil no_gil;
-          return load_trial(source, {std::make_shared<RandomAgent>(0)});
+          return load_record(source);
         }();
         if (!snapshot.record) throw FileError(source, "record", "nothing", "a record");
-        return py::make_tuple(columns(std::move(*snapshot.record)), snapshot.trial.world(),
-                              snapshot.trial.config(), snapshot.trial.seed(), snapshot.note);
+        return py::make_tuple(columns(std::move(*snapshot.record)), snapshot.world, snapshot.config,
+                              snapshot.seed, snapshot.note);
       },
       py::arg("path"), "The record in a trial's snapshot, for Record.load.");
   m.def(
@@ -97,37 +108,47 @@ void bind_trial_snapshot(py::module_& m) {
          "InvalidValue.")
       .def_static(
           "load",
-          [](const py::object& path, const py::object& agent) {
+          [](const py::object& path, const py::object& agent, const py::object& evaluation,
+             const py::object& situations) {
             const std::string name = file_path(path);
-            const LoadOptions options = load_options(agent);
+            const LoadOptions options = options_of(agent, evaluation, situations);
             const NoGil no_gil;
             return load_trial(name, options).trial;
           },
-          py::arg("path"), py::arg("agent") = py::none(),
+          py::arg("path"), py::arg("agent") = py::none(), py::kw_only(),
+          py::arg("evaluation") = py::none(), py::arg("situations") = py::none(),
           "The trial in a snapshot; it goes on equal to the bit, in the middle of a round, too. "
           "`agent` takes the place of the one in the file; a class makes it, by from_state(dict) "
           "of "
-          "what its state() was. Nothing is imported by a name in the file. Raises FileError, "
+          "what its state() was. `evaluation` and `situations` are the callables that the file "
+          "names, given again; an array is in the file. Nothing is imported by a name in the file. "
+          "Raises FileError, "
           "saying what is wrong with the file.")
       .def("to_bytes", &snapshot_bytes, py::arg("record") = py::none(), py::kw_only(),
            py::arg("without_agent") = false, "The snapshot as bytes.")
       .def_static(
           "from_bytes",
-          [](const py::bytes& bytes, const py::object& agent) {
-            return from_bytes(bytes, load_options(agent), "bytes").trial;
+          [](const py::bytes& bytes, const py::object& agent, const py::object& evaluation,
+             const py::object& situations) {
+            return from_bytes(bytes, options_of(agent, evaluation, situations), "bytes").trial;
           },
-          py::arg("snapshot"), py::arg("agent") = py::none(),
+          py::arg("snapshot"), py::arg("agent") = py::none(), py::kw_only(),
+          py::arg("evaluation") = py::none(), py::arg("situations") = py::none(),
           "The trial in a snapshot's bytes. Raises FileError.")
-      // The agent is pickled or copied by its own rules, and with whoever else holds it.
+      // The agent is pickled or copied by its own rules, and with whoever else holds it; functions
+      // likewise.
       .def(py::pickle(
           [](const py::object& self) -> py::object {
             const auto& trial = self.cast<const Trial&>();
             return py::make_tuple(snapshot_bytes(trial, py::none(), true), agent_of(trial),
-                                  self.attr("__dict__"));
+                                  self.attr("__dict__"), evaluation_to_keep(trial),
+                                  situations_of(trial));
           },
           [](const py::object& given) {
             const auto state = given.cast<py::tuple>();
-            const LoadOptions options{as_agent(state[1])};
+            LoadOptions options{as_agent(state[1])};
+            // Earlier ones have neither.
+            if (state.size() > 3) options.parts = parts_from(state[3], state[4]);
             return std::pair(from_bytes(state[0], options, "bytes").trial,
                              state[2].cast<py::dict>());
           }))

@@ -55,7 +55,7 @@ if TYPE_CHECKING:
         shortest_path,
         wrapped_heading,
     )
-    from ._types import Choice, Development, LearnerMemory, Pose
+    from ._types import Choice, Development, LearnerMemory, Pose, Senses
     from ._worlds import worlds
     from .errors import FileError, InvalidValue, WrongType
     from .record import Record
@@ -90,6 +90,7 @@ __all__ = [
     "Robot",
     "RobotDef",
     "ShortestPath",
+    "Senses",
     "SituationGrid",
     "SituationMemory",
     "StateEvaluation",

@@ -2822,7 +2822,10 @@ class Trial:
     observe(outcome). If it has them, these are called, too: begin_round(), before the first
     choice of a round; end_round(arrived), True where path learning arrives, False where the
     next round begins; cancel(), where its motion was refused. With state() -> dict of arrays
-    and a classmethod from_state(dict) it is saved with the trial. Raises InvalidValue.
+    and a classmethod from_state(dict) it is saved with the trial.
+    evaluation: a callable of Senses that gives SEF in place of Eq. 6, or an array of SEFs, one a
+    situation of the grid; situations: a callable of Senses that gives ids in place of the grid's.
+    Raises InvalidValue.
 
     A phase that Ctrl-C or an exception ends leaves what it finished in `interrupted`. Trials in
     several threads run at once. A trial that one thread runs, its learner, and its agent of
@@ -2831,14 +2834,26 @@ class Trial:
 
     interrupted: devlearn.record.Record | None
     @staticmethod
-    def from_bytes(snapshot: bytes, agent: typing.Any = None) -> Trial:
+    def from_bytes(
+        snapshot: bytes,
+        agent: typing.Any = None,
+        *,
+        evaluation: typing.Any = None,
+        situations: typing.Any = None,
+    ) -> Trial:
         """
         The trial in a snapshot's bytes. Raises FileError.
         """
     @staticmethod
-    def load(path: typing.Any, agent: typing.Any = None) -> Trial:
+    def load(
+        path: typing.Any,
+        agent: typing.Any = None,
+        *,
+        evaluation: typing.Any = None,
+        situations: typing.Any = None,
+    ) -> Trial:
         """
-        The trial in a snapshot; it goes on equal to the bit, in the middle of a round, too. `agent` takes the place of the one in the file; a class makes it, by from_state(dict) of what its state() was. Nothing is imported by a name in the file. Raises FileError, saying what is wrong with the file.
+        The trial in a snapshot; it goes on equal to the bit, in the middle of a round, too. `agent` takes the place of the one in the file; a class makes it, by from_state(dict) of what its state() was. `evaluation` and `situations` are the callables that the file names, given again; an array is in the file. Nothing is imported by a name in the file. Raises FileError, saying what is wrong with the file.
         """
     def __copy__(self) -> typing.Any: ...
     def __getstate__(self) -> typing.Any: ...
@@ -2848,6 +2863,9 @@ class Trial:
         config: TrialConfig | None = None,
         seed: typing.SupportsIndex = 0,
         agent: typing.Any = None,
+        *,
+        evaluation: typing.Any = None,
+        situations: typing.Any = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
@@ -2954,6 +2972,11 @@ class Trial:
         The TrialConfig.
         """
     @property
+    def evaluation(self) -> typing.Any:
+        """
+        The callable or array that stands in place of Eq. 6; None for Eq. 6.
+        """
+    @property
     def grid(self) -> SituationGrid:
         """
         The SituationGrid over the arena.
@@ -2987,6 +3010,11 @@ class Trial:
     def seed(self) -> int:
         """
         The seed it began with.
+        """
+    @property
+    def situations(self) -> typing.Any:
+        """
+        The callable that stands in place of the grid's situations; None for the grid's.
         """
     @property
     def world(self) -> World:

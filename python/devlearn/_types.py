@@ -29,6 +29,20 @@ class Pose(NamedTuple):
         return yaw_of_heading(self.heading)
 
 
+class Senses(NamedTuple):
+    """What is sensed at a pose, for an evaluation and situations of one's own.
+
+    The sonars' echoes there are told by a Robot of the same world: ``robot.sonar(senses.pose)``.
+    """
+
+    pose: Pose
+    """[m, m, degrees]"""
+    goal_distance: float
+    """d_g [m]"""
+    clearance: float
+    """d_o [m]"""
+
+
 class Choice(NamedTuple):
     """A motion to execute: its index in M, and why."""
 

@@ -51,7 +51,8 @@ class Record:  # noqa: D101 - made of the columns
     A run with ``rounds_only`` leaves the step and pose columns empty; ``rounds`` tells the steps.
 
     ``provenance`` tells where it came from: version, commit, Box2D's version, world and its hash,
-    configuration, seed and agent.
+    configuration, seed and agent; ``evaluation`` and ``situations`` by name, where they are one's
+    own.
     """
 
     round: npt.NDArray[np.int32]
@@ -99,8 +100,9 @@ class Record:  # noqa: D101 - made of the columns
         config: _core.TrialConfig,
         seed: int,
         agent: object,
+        own: Mapping[str, str],
     ) -> Record:
-        return cls(columns, provenance_of(world, config, seed, agent))
+        return cls(columns, provenance_of(world, config, seed, agent) | dict(own))
 
     @classmethod
     def concatenate(cls, records: Sequence[Record]) -> Record:
@@ -328,9 +330,14 @@ class Record:  # noqa: D101 - made of the columns
             # Saved by C++, where records have no provenance: the trial's then.
             file.seek(0)
             size = int.from_bytes(file.read(8), "little")
-            entries = json.loads(file.read(size))["__metadata__"]
+            header = json.loads(file.read(size))
+            entries = header["__metadata__"]
             provenance = provenance_of(world, config, seed, None)
             provenance |= {k: entries[k] for k in ("devlearn", "commit", "box2d", "agent")}
+            own = {k: entries.get(f"own.{k}") for k in ("evaluation", "situations")}
+            provenance |= {k: name for k, name in own.items() if name is not None}
+            if "own.sef_table" in header:
+                provenance["evaluation"] = "table"
         return cls(columns, provenance)
 
     def _by_step(self) -> dict[str, npt.NDArray[Any]]:
@@ -438,7 +445,8 @@ def _holds_rounds_only(rounds: npt.NDArray[np.void], x: npt.NDArray[np.float64])
 def _check_provenance(provenance: object) -> None:
     if not isinstance(provenance, Mapping):
         raise InvalidValue("provenance", type(provenance).__name__, "a mapping")
-    shape = {"devlearn": str, "commit": str, "box2d": str, "agent": str, "config": Mapping}
+    names = ("devlearn", "commit", "box2d", "agent", "evaluation", "situations")
+    shape: dict[str, Any] = {**dict.fromkeys(names, str), "config": Mapping}
     for name, kind in {**shape, "world": Mapping}.items():
         if name in provenance and not isinstance(provenance[name], kind):
             given = type(provenance[name]).__name__

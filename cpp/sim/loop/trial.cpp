@@ -52,6 +52,28 @@ SituationGrid grid_over(const World& world, const TrialConfig& config) {
                        config.heading_bins, world.def().origin);
 }
 
+Senses senses_of(const Observation& there) {
+  return {there.pose, there.goal_distance, there.clearance};
+}
+
+// SEFs differ by what a double can hold.
+constexpr double kMostSef = 1e300;
+
+double require_sef(const std::string& quantity, double sef) {
+  require_in(quantity, sef, -kMostSef, kMostSef);
+  return sef;
+}
+
+template <typename Value>
+void require_named(const char* quantity, const NamedFunction<Value>& part) {
+  if (part.function && part.name.empty()) {
+    throw InvalidValue(std::string(quantity) + ".name", "''", "a name, by which snapshots know it");
+  }
+  if (!part.function && !part.name.empty()) {
+    throw InvalidValue(std::string(quantity) + ".function", "null", "a function of that name");
+  }
+}
+
 // What the record is told.
 Step row(std::int32_t round, const Observation& before, const Choice& choice,
          const Observation& after, double smf, const Outcome& outcome,
@@ -130,19 +152,24 @@ bool operator==(const TrialConfig& a, const TrialConfig& b) noexcept {
 // --- the trial ---------------------------------------------------------------------------------
 
 Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed)
-    : Trial(world, config, seed, own_agent(config, seed)) {}
+    : Trial(world, config, seed, TrialParts{}) {}
+
+Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed, TrialParts parts)
+    : Trial(world, config, seed, own_agent(config, seed), std::move(parts)) {}
 
 Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
-             std::shared_ptr<Agent> agent)
+             std::shared_ptr<Agent> agent, TrialParts parts)
     : config_((config.validate(), config)),
       seed_(seed),
       robot_(world, config.robot),
       grid_(grid_over(world, config)),
       agent_(std::move(agent)),
+      parts_(std::move(parts)),
       allowed_(std::make_unique<bool[]>(config.robot.steering_angles.size())) {
   if (!agent_) throw InvalidValue("Trial.agent", "null", "an agent");
   if (const auto paper = learner()) require_motions(paper->config().motion_count);
   if (const auto adaptive = adaptive_learner()) require_motions(adaptive->config().motion_count);
+  require_parts();
   robot_.require_place(world.def().start, "start");
   here_ = sense(world.def().start);
 }
@@ -153,6 +180,23 @@ void Trial::require_motions(int motions) const {
   throw InvalidValue(
       "Trial.agent.config.motion_count", std::to_string(motions),
       std::to_string(config_.motion_count()) + ", the number of robot.steering_angles");
+}
+
+void Trial::require_parts() const {
+  require_named("TrialParts.evaluation", parts_.evaluation);
+  require_named("TrialParts.situations", parts_.situations);
+  const std::vector<double>& table = parts_.sef_table;
+  if (table.empty()) return;
+  const char* const quantity = "TrialParts.sef_table";
+  if (parts_.evaluation.function) {
+    throw InvalidValue(quantity, "given, and an evaluation too", "only one of them");
+  }
+  if (parts_.situations.function) {
+    throw InvalidValue(quantity, "given, and situations of one's own too",
+                       "an evaluation: a table is of the grid's situations");
+  }
+  require_size(quantity, table.size(), static_cast<std::uint64_t>(grid_.count()));
+  require_each(table.size(), [&](std::size_t i) { require_sef(quantity, table[i]); });
 }
 
 Step Trial::step() {
@@ -170,7 +214,7 @@ Step Trial::tick() {
   // -> motion (Eq. 1)
   const Robot::Move moved = robot_.step(before.pose, choice.motion);
   // world -> sense -> situation, and its SEF (Eq. 6)
-  const Observation after = sense(moved.pose);
+  const Observation after = sense_after(moved.pose);
   // -> evaluation (Eq. 8)
   const double smf = after.sef - before.sef;
   const Outcome outcome = outcome_of(after, smf, moved.collided);
@@ -186,18 +230,46 @@ Step Trial::tick() {
 Observation Trial::sense(const Pose& pose) const {
   Observation there;
   there.pose = pose;
-  there.situation = grid_.situation(pose.x, pose.y, pose.heading);
   const double dx = pose.x - world().def().target.x;
   const double dy = pose.y - world().def().target.y;
   there.goal_distance = std::sqrt(dx * dx + dy * dy);
   there.clearance = clearance(pose);
-  // Eq. 6
-  there.sef = config_.evaluation(there.goal_distance, there.clearance);
+  there.situation = parts_.situations.function ? own_situation(there)
+                                               : grid_.situation(pose.x, pose.y, pose.heading);
+  // Eq. 6, or what stands in its place
+  there.sef = parts_.evaluation.function || !parts_.sef_table.empty()
+                  ? own_sef(there)
+                  : config_.evaluation(there.goal_distance, there.clearance);
   if (!arrived_at(there)) {
     there.estimate = there.goal_distance / (config_.robot.speed * config_.robot.sample_time);
   }
   there.motion_count = config_.motion_count();
   return there;
+}
+
+// The same after a motion: where it cannot be told, the motion was not made.
+Observation Trial::sense_after(const Pose& pose) const {
+  try {
+    return sense(pose);
+  } catch (...) {
+    agent_->cancel();
+    throw;
+  }
+}
+
+SituationId Trial::own_situation(const Observation& there) const {
+  const NamedFunction<SituationId>& own = parts_.situations;
+  const SituationId id = own.function(senses_of(there));
+  if (id < 0) {
+    throw InvalidValue("situation by " + own.name, std::to_string(id), "in [0, 2^63 - 1]");
+  }
+  return id;
+}
+
+double Trial::own_sef(const Observation& there) const {
+  const NamedFunction<double>& own = parts_.evaluation;
+  if (own.function) return require_sef("SEF by " + own.name, own.function(senses_of(there)));
+  return parts_.sef_table[static_cast<std::size_t>(there.situation)];
 }
 
 // d_o of Eq. 6.

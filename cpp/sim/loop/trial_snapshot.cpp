@@ -20,12 +20,24 @@ namespace {
 using safetensors::Contents;
 
 constexpr const char* kFormat = "devlearn-trial";
-constexpr std::uint64_t kFormatVersion = 1;
+// Of trials with parts of one's own, which an older reader must not take for Eq. 6 and the grid's.
+constexpr std::uint64_t kFormatVersion = 2;
+constexpr std::uint64_t kFormatVersionOfPlain = 1;
 
 // Stands for an agent where there is none.
 constexpr const char* kNone = "none";
 
 constexpr const char* kConfig = "config.";
+
+// Parts of one's own: names of functions, and the table.
+constexpr const char* kEvaluation = "own.evaluation";
+constexpr const char* kSituations = "own.situations";
+constexpr const char* kSefTable = "own.sef_table";
+
+std::uint64_t version_for(const TrialParts& parts) {
+  const bool own = parts.evaluation.function || parts.situations.function;
+  return own || !parts.sef_table.empty() ? kFormatVersion : kFormatVersionOfPlain;
+}
 
 // What stands before the names of an agent's texts and arrays. devlearn's first two agents stand as
 // in a snapshot of their own.
@@ -44,11 +56,12 @@ std::string box2d_version() {
 class Description {
  public:
   Description(const Trial& trial, const SaveOptions& options)
-      : contents_{preamble(kFormat, kFormatVersion), {}} {
+      : contents_{preamble(kFormat, version_for(trial.parts())), {}} {
     if (trial.under_way()) {
       throw InvalidValue("Trial", "a snapshot while a call is under way", "one call at a time");
     }
     describe_trial(trial);
+    describe_parts(trial.parts());
     if (options.agent) {
       describe_agent(*trial.agent());
     } else {
@@ -74,6 +87,15 @@ class Description {
     each_entry(trial.config(), kConfig, entries);
     pose_ = {trial.pose().x, trial.pose().y, trial.pose().heading};
     add("pose", pose_, "F64");
+  }
+
+  void describe_parts(const TrialParts& parts) {
+    const auto add_name = [&](const char* entry, const std::string& name) {
+      if (!name.empty()) contents_.metadata[entry] = utf8(entry, name);
+    };
+    add_name(kEvaluation, parts.evaluation.name);
+    add_name(kSituations, parts.situations.name);
+    if (!parts.sef_table.empty()) add(kSefTable, parts.sef_table, "F64");
   }
 
   void describe_agent(const Agent& agent) {
@@ -182,22 +204,69 @@ std::shared_ptr<Agent> agent_of(const Contents& contents, const LoadOptions& opt
                   "learner, adaptive or random; or give the agent that goes on, or its maker");
 }
 
-Trial trial_of(const Contents& contents, const LoadOptions& options, const std::string& source) {
+// Where a function lives, such as a module, is no part of its name.
+std::string name_alone(const std::string& name) { return name.substr(name.find(':') + 1); }
+
+// The function that the file names, and none where it names none.
+void require_named(const Contents& contents, const char* entry, const std::string& given,
+                   const std::string& source) {
+  const auto found = contents.metadata.find(entry);
+  const std::string saved = found == contents.metadata.end() ? "" : found->second;
+  if (name_alone(saved) == name_alone(given)) return;
+  throw FileError(source, entry, saved.empty() ? "none" : excerpt(saved),
+                  given.empty() ? "none, where no function is given; give the one of this name"
+                                : excerpt(given) + ", the name of the function given");
+}
+
+TrialParts parts_of(const Contents& contents, const TrialParts& given, const std::string& source) {
+  require_named(contents, kEvaluation, given.evaluation.name, source);
+  require_named(contents, kSituations, given.situations.name, source);
+  if (!given.sef_table.empty()) {
+    throw FileError(source, kSefTable, "given again", "nothing: the file has its table");
+  }
+  TrialParts parts = given;
+  const auto table = contents.arrays.find(kSefTable);
+  if (table != contents.arrays.end()) {
+    const std::uint64_t length = table->second.shape.size() == 1 ? table->second.shape[0] : 1;
+    parts.sef_table = safetensors::values<double>(contents, kSefTable, {length}, source);
+  }
+  return parts;
+}
+
+TrialConfig config_of(const Contents& contents, const std::string& source) {
   TrialConfig config;
+  const EntryReader entries(contents, source);
+  each_entry(config, kConfig, entries);
+  made_of(source, [&] { config.validate(); });
+  return config;
+}
+
+std::uint64_t seed_of(const Contents& contents, const std::string& source) {
   std::uint64_t seed = 0;
+  EntryReader(contents, source)("trial_seed", seed);
+  return seed;
+}
+
+std::string note_of(const Contents& contents) {
+  const auto entry = contents.metadata.find("note");
+  return entry == contents.metadata.end() ? "" : entry->second;
+}
+
+Trial trial_of(const Contents& contents, const LoadOptions& options, const std::string& source) {
+  const std::uint64_t seed = seed_of(contents, source);
   int round = 0;
   const EntryReader entries(contents, source);
-  entries("trial_seed", seed);
   entries("round", round);
   // Earlier files do not say.
   bool round_open = round > 0;
   if (entries.has("round_open")) entries("round_open", round_open);
-  each_entry(config, kConfig, entries);
+  const TrialConfig config = config_of(contents, source);
   const std::vector<double> pose = safetensors::values<double>(contents, "pose", {3}, source);
   const World world = world_of(contents, source);
+  TrialParts parts = parts_of(contents, options.parts, source);
   const std::shared_ptr<Agent> agent = agent_of(contents, options, source);
   return made_of(source, [&] {
-    Trial trial(world, config, seed, agent);
+    Trial trial(world, config, seed, agent, std::move(parts));
     trial.resume({pose[0], pose[1], pose[2]}, round, round_open);
     return trial;
   });
@@ -279,9 +348,15 @@ TrialSnapshot load_trial(const std::byte* bytes, std::size_t size, const LoadOpt
                          const std::string& source) {
   const Contents contents = safetensors::read(bytes, size, source);
   require_format(contents, kFormat, kFormatVersion, source);
-  const auto entry = contents.metadata.find("note");
-  const std::string note = entry == contents.metadata.end() ? "" : entry->second;
-  return {trial_of(contents, options, source), record_of(contents, source), note};
+  return {trial_of(contents, options, source), record_of(contents, source), note_of(contents)};
+}
+
+RecordSnapshot load_record(const std::string& path) {
+  const std::vector<std::byte> bytes = safetensors::read_file(path);
+  const Contents contents = safetensors::read(bytes.data(), bytes.size(), path);
+  require_format(contents, kFormat, kFormatVersion, path);
+  return {record_of(contents, path), world_of(contents, path), config_of(contents, path),
+          seed_of(contents, path), note_of(contents)};
 }
 
 }  // namespace devlearn

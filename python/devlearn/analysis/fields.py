@@ -44,6 +44,7 @@ def grid_of(
     """
     if grid is not None:
         return grid
+    _refuse_own(source, "situations", "grid=, the one that they are of")
     if config is None and isinstance(source, World):
         raise InvalidValue(
             "grid", "none, and a World alone, which does not say on which grid was learned",
@@ -52,6 +53,14 @@ def grid_of(
     if config is None and isinstance(source, Trial):
         return source.grid
     return Trial(world_of(source), config_of(source, config)).grid
+
+
+def _refuse_own(source: Source, part: str, allowed: str) -> None:
+    """Refuse a part of one's own, of which nothing is known here."""
+    if isinstance(source, Trial) and getattr(source, part) is not None:
+        raise InvalidValue(part, "the trial's own", allowed)
+    if isinstance(source, Record) and part in source.provenance:
+        raise InvalidValue(part, source.provenance[part], allowed)
 
 
 class SefField(NamedTuple):
@@ -83,6 +92,8 @@ def sef_field(
     """
     if points < 2:
         raise InvalidValue("points", points, "at least 2")
+    if evaluation is None:
+        _refuse_own(source, "evaluation", "evaluation=, a StateEvaluation to draw")
     world, config = world_of(source), config_of(source)
     evaluate = evaluation if evaluation is not None else config.evaluation
     walls = config.walls_count if walls_count is None else walls_count

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -79,6 +80,31 @@ struct TrialConfig {
 bool operator==(const TrialConfig& a, const TrialConfig& b) noexcept;
 inline bool operator!=(const TrialConfig& a, const TrialConfig& b) noexcept { return !(a == b); }
 
+/// What is sensed at a pose. The sonars' echoes there are told by a Robot of the same world and
+/// def.
+struct Senses {
+  Pose pose;                   ///< [m, m, degrees]
+  double goal_distance = 0.0;  ///< d_g [m]
+  double clearance = 0.0;      ///< d_o [m]
+};
+
+/// A function of what is sensed, under a name by which a snapshot knows it: the same value for the
+/// same senses. What it throws comes out of the trial's call.
+template <typename Value>
+struct NamedFunction {
+  std::string name;                              ///< UTF-8; empty where there is no function
+  std::function<Value(const Senses&)> function;  ///< null: the trial's own
+};
+
+/// What stands in place of Eq. 6 and of the grid's situations; by default nothing. Redefining both
+/// is what the paper concludes with.
+struct TrialParts {
+  NamedFunction<double> evaluation;  ///< SEF, within +-1e300
+  /// Or SEF of each of the grid's situations, as long as there are such; empty: none.
+  std::vector<double> sef_table;
+  NamedFunction<SituationId> situations;  ///< ids, at least 0
+};
+
 /// How a run is watched.
 struct RunOptions {
   bool echoes = false;  ///< whether the sonars' echoes are recorded
@@ -99,11 +125,14 @@ class Trial {
  public:
   /// With a learner of its own from config.learner and `seed`. Throws InvalidValue.
   Trial(const World& world, const TrialConfig& config = {}, std::uint64_t seed = 0);
+  /// The same, with an evaluation or situations of one's own. Throws InvalidValue.
+  Trial(const World& world, const TrialConfig& config, std::uint64_t seed, TrialParts parts);
   /// With another agent. Throws InvalidValue.
   Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
-        std::shared_ptr<Agent> agent);
+        std::shared_ptr<Agent> agent, TrialParts parts = {});
 
-  /// One step: once around the loop. Where an agent throws, the trial is left as it was.
+  /// One step: once around the loop. Where an agent throws, the trial is left as it was; likewise
+  /// where a function of one's own does, and the agent's choice is cancelled.
   Step step();
 
   ///@{
@@ -146,10 +175,12 @@ class Trial {
   /// What it was made of.
   const World& world() const noexcept { return robot_.world(); }
   const Robot& robot() const noexcept { return robot_; }
+  /// The grid of config, whether or not its situations are used.
   const SituationGrid& grid() const noexcept { return grid_; }
   const TrialConfig& config() const noexcept { return config_; }
   std::uint64_t seed() const noexcept { return seed_; }
   const std::shared_ptr<Agent>& agent() const noexcept { return agent_; }
+  const TrialParts& parts() const noexcept { return parts_; }
   ///@}
   /// The paper's learner, where that is the agent; null otherwise.
   std::shared_ptr<Learner> learner() const noexcept;
@@ -158,8 +189,12 @@ class Trial {
 
  private:
   void require_motions(int motions) const;
+  void require_parts() const;
   Step tick();
   Observation sense(const Pose& pose) const;
+  Observation sense_after(const Pose& pose) const;
+  SituationId own_situation(const Observation& there) const;
+  double own_sef(const Observation& there) const;
   double clearance(const Pose& pose) const;
   bool arrived_at(const Observation& place) const noexcept {
     return place.goal_distance <= config_.goal_radius;
@@ -179,6 +214,7 @@ class Trial {
   Robot robot_;
   SituationGrid grid_;
   std::shared_ptr<Agent> agent_;
+  TrialParts parts_;
   Observation here_;
   std::unique_ptr<bool[]> allowed_;  // a bool a motion
   std::int32_t round_ = 0;

@@ -818,3 +818,126 @@ TEST_CASE("the grid covers the arena with cells of the size asked for, whatever 
     }
   }
 }
+
+// --- an evaluation and situations of one's own
+// -----------------------------------------------------
+
+namespace {
+
+NamedFunction<double> eq6() {
+  return {"eq6", [](const Senses& senses) {
+            return StateEvaluation{}(senses.goal_distance, senses.clearance);
+          }};
+}
+NamedFunction<SituationId> cells(const SituationGrid& grid) {
+  return {"cells", [grid](const Senses& senses) { return grid.situation(senses.pose); }};
+}
+
+}  // namespace
+
+TEST_CASE("Eq. 6 and the grid, given as functions of one's own, make the same history") {
+  for (const TrialConfig& config : {TrialConfig::paper(), TrialConfig::adaptive()}) {
+    Trial plain(shipped("paper"), config, 4);
+    Trial own(shipped("paper"), config, 4, TrialParts{eq6(), {}, cells(plain.grid())});
+    REQUIRE(same(whole_history(plain, 2000), whole_history(own, 2000)));
+  }
+}
+
+TEST_CASE("a table of SEFs is looked up by the grid's situation") {
+  const SituationGrid grid = Trial(shipped("paper")).grid();
+  TrialParts parts;
+  for (SituationId id = 0; id < grid.count(); ++id) parts.sef_table.push_back(0.5 * static_cast<double>(id));
+  Trial trial(shipped("paper"), {}, 4, parts);
+  const Record record = recorded([&](Record& r) { trial.free_learning(r, 200); });
+  for (std::size_t i = 0; i < 200; ++i) {
+    const SituationId there =
+        grid.situation(record.x[i + 1], record.y[i + 1], record.heading[i + 1]);
+    REQUIRE(record.sef[i] == 0.5 * static_cast<double>(there));
+  }
+}
+
+TEST_CASE("functions of one's own are told the pose, the distance to go and the clearance") {
+  Senses last;
+  TrialParts parts;
+  parts.evaluation = {"look", [&](const Senses& senses) {
+                        last = senses;
+                        return 0.0;
+                      }};
+  parts.situations = {"one", [](const Senses&) { return SituationId{7}; }};
+  Trial trial(open_world(), {}, 1, parts);
+  const Step step = trial.step();
+  CHECK(last.pose == step.pose);
+  CHECK(last.goal_distance == step.goal_distance);
+  CHECK(last.clearance == step.clearance);
+  CHECK(step.situation == 7);
+  CHECK(trial.learner()->situations() == std::vector<SituationId>{7});
+}
+
+TEST_CASE("what a function of one's own may not give is refused, and the step was not made") {
+  double sef = 0.0;
+  SituationId id = 0;
+  TrialParts parts;
+  parts.evaluation = {"mine", [&](const Senses&) { return sef; }};
+  parts.situations = {"ours", [&](const Senses&) { return id; }};
+  const auto agent = std::make_shared<Scripted>();
+  Trial trial(open_world(), {}, 1, agent, parts);
+  trial.step();
+  const Pose pose = trial.pose();
+  const double huge = 2e300, nan = std::nan(""), infinite = HUGE_VAL;
+  for (const auto& [value, text] :
+       {std::pair(huge, "2e+300"), std::pair(nan, "nan"), std::pair(infinite, "inf")}) {
+    sef = value;
+    check_refused([&] { trial.step(); }, "SEF by mine", text);
+  }
+  sef = 0.0;
+  id = -1;
+  check_refused([&] { trial.step(); }, "situation by ours", "-1");
+  check_refused([&] { trial.begin_round(); }, "situation by ours", "-1");
+  CHECK(trial.pose() == pose);
+  CHECK(trial.round() == 1);
+  CHECK(agent->cancelled == 4);
+  CHECK(agent->observed == 1);
+  id = 0;
+  trial.step();
+  CHECK(agent->observed == 2);
+}
+
+TEST_CASE("a function of one's own that throws or moves its trial leaves it as it was") {
+  std::function<void()> act = [] {};
+  TrialParts parts;
+  parts.evaluation = {"mine", [&](const Senses& senses) {
+                        act();
+                        return -senses.goal_distance;
+                      }};
+  Trial trial(open_world(), {}, 1, parts), undisturbed(open_world(), {}, 1, parts);
+  Record record;
+  trial.run(record, 10);
+  act = [] { throw std::runtime_error("no reading"); };
+  CHECK_THROWS_WITH(trial.run(record, 5), "no reading");
+  act = [&] { trial.begin_round(); };
+  check_refused([&] { trial.step(); }, "Trial", "a call while another is under way");
+  act = [] {};
+  CHECK(trial.pose() == Pose{record.x.back(), record.y.back(), record.heading.back()});
+  CHECK_FALSE(trial.learner()->pending());
+  CHECK(trial.learner()->explored_count() == record.explored_count.back());
+  trial.run(record, 5);
+  CHECK(record.steps() == 15);
+}
+
+TEST_CASE("parts of one's own that make no sense are refused") {
+  const auto made = [](TrialParts parts) {
+    return [parts = std::move(parts)] { Trial(open_world(), {}, 1, parts); };
+  };
+  TrialParts nameless{eq6(), {}, {}};
+  nameless.evaluation.name.clear();
+  check_refused(made(nameless), "TrialParts.evaluation.name", "''");
+  check_refused(made({{}, {}, {"cells", nullptr}}), "TrialParts.situations.function", "null");
+  check_refused(made({eq6(), {0.0}, {}}), "TrialParts.sef_table", "given, and an evaluation too");
+  const SituationGrid grid = Trial(open_world()).grid();
+  check_refused(made({{}, {0.0}, cells(grid)}), "TrialParts.sef_table",
+                "given, and situations of one's own too");
+  check_refused(made({{}, {0.0, 1.0}, {}}), "TrialParts.sef_table", "2 values");
+  std::vector<double> table(static_cast<std::size_t>(grid.count()), 0.0);
+  table[5] = -HUGE_VAL;
+  check_refused(made({{}, table, {}}), "TrialParts.sef_table[5]", "-inf");
+}

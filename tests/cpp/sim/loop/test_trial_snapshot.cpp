@@ -452,7 +452,7 @@ TEST_CASE("a trial's snapshot that lies is refused, naming the lie") {
 
   SUBCASE("about what it is") {
     CHECK(with_entry("format", "devlearn-learner") == "format");
-    CHECK(with_entry("format_version", "2") == "format_version");
+    CHECK(with_entry("format_version", "3") == "format_version");
     CHECK(with_entry("format_version", "0") == "format_version");
     CHECK(with_entry("format_version", "one") == "format_version");
     const Bytes learner = to_bytes(Learner());
@@ -529,4 +529,100 @@ TEST_CASE("a trial's snapshot that lies is refused, naming the lie") {
     CHECK(with("record.motion", 5, std::int32_t{-2}) == "record.motion[5]");
     CHECK(with_text("\"record.sef\"", "\"record.self\"") == "record.sef");
   }
+}
+
+// --- an evaluation and situations of one's own
+// -----------------------------------------------------
+
+namespace {
+
+TrialParts own_parts(const std::string& evaluation, const std::string& situations) {
+  TrialParts parts;
+  parts.evaluation = {evaluation, [](const Senses& senses) { return -senses.goal_distance; }};
+  parts.situations = {situations, [](const Senses& senses) {
+                        return static_cast<SituationId>(10.0 * senses.clearance) +
+                               100 * static_cast<SituationId>(senses.pose.heading / 30.0);
+                      }};
+  return parts;
+}
+
+}  // namespace
+
+TEST_CASE("a trial with functions of one's own goes on where they are given again") {
+  Trial trial(shipped("paper"), {}, 3, own_parts("mine:progress", "mine:gap"));
+  Record record;
+  trial.free_learning(record, 300);
+  const Bytes bytes = to_bytes(trial);
+  LoadOptions options;
+  options.parts = own_parts("elsewhere:progress", "elsewhere:gap");
+  Trial again = load_trial(bytes.data(), bytes.size(), options).trial;
+  Record there, here;
+  trial.path_learning(here, 3, 200);
+  again.path_learning(there, 3, 200);
+  CHECK(here.x == there.x);
+  CHECK(here.situation == there.situation);
+  CHECK(here.sef == there.sef);
+}
+
+TEST_CASE("functions that are missing, others, or too many are refused by the names in the file") {
+  const auto refused = [](const TrialParts& saved, const TrialParts& given, const char* field,
+                          const char* value) {
+    const Bytes bytes = to_bytes(Trial(shipped("paper"), {}, 3, saved));
+    LoadOptions options;
+    options.parts = given;
+    try {
+      load_trial(bytes.data(), bytes.size(), options, "it");
+      FAIL("was read");
+    } catch (const FileError& error) {
+      CHECK(error.field() == field);
+      CHECK(error.value() == value);
+    }
+  };
+  const TrialParts both = own_parts("progress", "gap");
+  TrialParts table;
+  table.sef_table.assign(static_cast<std::size_t>(Trial(shipped("paper")).grid().count()), 1.5);
+  refused(both, {}, "own.evaluation", "progress");
+  refused(both, own_parts("progress", "other"), "own.situations", "gap");
+  refused({}, both, "own.evaluation", "none");
+  refused(table, both, "own.evaluation", "none");
+  refused(table, table, "own.sef_table", "given again");
+}
+
+TEST_CASE("a table of SEFs is saved whole") {
+  TrialParts parts;
+  for (SituationId id = 0; id < Trial(shipped("paper")).grid().count(); ++id) {
+    parts.sef_table.push_back(0.1 * static_cast<double>(id));
+  }
+  Trial trial(shipped("paper"), {}, 3, parts);
+  const Bytes bytes = to_bytes(trial);
+  Trial again = loaded(bytes).trial;
+  CHECK(again.parts().sef_table == parts.sef_table);
+  CHECK(to_bytes(again) == bytes);
+}
+
+TEST_CASE("only a trial with parts of its own has the newer version") {
+  const auto version = [](const TrialParts& parts) {
+    const Bytes bytes = to_bytes(Trial(shipped("paper"), {}, 3, parts));
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string entry = "\"format_version\":\"";
+    return text.at(text.find(entry) + entry.size());
+  };
+  CHECK(version({}) == '1');
+  CHECK(version(own_parts("progress", "gap")) == '2');
+}
+
+TEST_CASE("a record is read from a trial's file without the functions it was made by") {
+  Trial trial(shipped("paper"), {}, 3, own_parts("progress", "gap"));
+  Record record;
+  trial.free_learning(record, 50);
+  const std::string path = "own_parts.safetensors";
+  save(trial, path, {&record, true, "a note"});
+  const RecordSnapshot found = load_record(path);
+  std::remove(path.c_str());
+  REQUIRE(found.record);
+  CHECK(found.record->sef == record.sef);
+  CHECK(found.world.def().name == trial.world().def().name);
+  CHECK(found.config == trial.config());
+  CHECK(found.seed == 3);
+  CHECK(found.note == "a note");
 }
