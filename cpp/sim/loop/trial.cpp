@@ -124,7 +124,7 @@ TrialConfig TrialConfig::adaptive() {
   return config;
 }
 
-int TrialConfig::motion_count() const noexcept {
+int TrialConfig::motion_count() const {
   return std::visit([](const auto& def) { return def.motion_count; }, learner);
 }
 
@@ -145,7 +145,7 @@ void TrialConfig::validate() const {
   }
 }
 
-bool operator==(const TrialConfig& a, const TrialConfig& b) noexcept {
+bool operator==(const TrialConfig& a, const TrialConfig& b) {
   return detail::same_fields(a, b);
 }
 

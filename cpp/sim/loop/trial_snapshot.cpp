@@ -287,7 +287,7 @@ std::optional<Record> record_of(const Contents& contents, const std::string& sou
     column = safetensors::values<T>(contents, std::string("record.") + name, shape, source, dtype);
   };
   detail::each_column(Record::step_columns(), [&](auto& column) {
-    if constexpr (column.may_lack()) {
+    if constexpr (std::decay_t<decltype(column)>::may_lack()) {
       if (contents.arrays.count(std::string("record.") + column.name) == 0) {
         (record.*column.values).assign(steps, std::numeric_limits<double>::quiet_NaN());
         return;

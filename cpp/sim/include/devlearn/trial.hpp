@@ -71,14 +71,14 @@ struct TrialConfig {
   static TrialConfig adaptive();
 
   /// N_M of the learner.
-  int motion_count() const noexcept;
+  int motion_count() const;
 
   /// Throws InvalidValue.
   void validate() const;
 };
 
-bool operator==(const TrialConfig& a, const TrialConfig& b) noexcept;
-inline bool operator!=(const TrialConfig& a, const TrialConfig& b) noexcept { return !(a == b); }
+bool operator==(const TrialConfig& a, const TrialConfig& b);
+inline bool operator!=(const TrialConfig& a, const TrialConfig& b) { return !(a == b); }
 
 /// What is sensed at a pose. The sonars' echoes there are told by a Robot of the same world and
 /// def.
