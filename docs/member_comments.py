@@ -1,7 +1,7 @@
 """What Doxygen reads of a header: the same, with a comment on each field of a Def or a Step.
 
 What a field is stands once, in what the header says of its fields. The compiled module's docstrings
-are made of that, and its stub of them.
+are made of that, and its stub of them; of what Python does not have, it is read from the header.
 """
 
 import ast
@@ -25,9 +25,23 @@ def attributes():
     }
 
 
+def described(header):
+    """What the header says of fields, by struct and name: the last text of each."""
+    fields = {}
+    for struct, body in re.findall(
+        r"^struct (\w+) \{$(.*?)^\};$", header, re.DOTALL | re.MULTILINE
+    ):
+        for name, rest in re.findall(
+            r'\bfield\("(\w+)",(.*?)\)(?=,\s*(?:later\()?field|\);)', body, re.DOTALL
+        ):
+            doc = re.findall(r'"((?:[^"]|"\s+")*)"', rest)[-1]
+            fields.setdefault(struct, {})[name] = re.sub(r'"\s+"', "", doc)
+    return fields
+
+
 def commented(header):
     """The header's lines."""
-    docs, struct = attributes(), ""
+    docs, struct = described(header) | attributes(), ""
     for line in header.splitlines():
         if match := re.match(r"struct (\w+) \{|\}", line):
             struct = match[1]

@@ -104,7 +104,7 @@ struct Recollection {
 
 /// Why a motion is chosen in a situation. Motions are -1 where there is none.
 struct AdaptiveExplanation {
-  SituationId situation = -1;
+  SituationId situation = -1;       ///< which
   AdaptiveMemory memory;            ///< lists and losses
   std::vector<bool> allowed;        ///< N: whether each motion may be chosen
   std::vector<double> probability;  ///< N: of each to be chosen by values
@@ -250,16 +250,18 @@ struct AdaptiveArrays {
 
 /// Everything that an adaptive learner goes on from.
 struct AdaptiveState {
-  AdaptiveConfig config;     ///< its parameters
-  std::uint64_t seed = 0;    ///< that it began with
-  Random::State random{};    ///< of the stream "agent"
-  std::uint64_t rounds = 0;  ///< begun
-  double optimism = 1.0;     ///< w, as it has fallen
-  AdaptiveHabit habit;
-  AdaptiveRound round;
-  AdaptiveDecision decision;
-  detail::Sweep home, falling, hope;  ///< those that take several calls
-  AdaptiveArrays arrays;              ///< all that it remembers
+  AdaptiveConfig config;      ///< its parameters
+  std::uint64_t seed = 0;     ///< that it began with
+  Random::State random{};     ///< of the stream "agent"
+  std::uint64_t rounds = 0;   ///< begun
+  double optimism = 1.0;      ///< w, as it has fallen
+  AdaptiveHabit habit;        ///< and the rounds that led to it
+  AdaptiveRound round;        ///< that is under way
+  AdaptiveDecision decision;  ///< that is open
+  detail::Sweep home;         ///< of what is known, for the way home
+  detail::Sweep falling;      ///< of untried motions, as optimism falls
+  detail::Sweep hope;         ///< of what is hoped, in curious rounds
+  AdaptiveArrays arrays;      ///< all that it remembers
 };
 
 /// A learner with an adaptive SEF, -(Phi + E): the estimate of the cost to go, corrected by what
