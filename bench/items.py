@@ -74,6 +74,8 @@ ITEMS = [
          ratio(CONTACT, "contact/plain")),
     Item("2 closed loop", "whole free learning / floor", "<=", 4.0, ratio(LOOP, FLOOR)),
     Item("2 closed loop", "whole experiment / floor", "<=", 4.0, ratio("trial/experiment", FLOOR)),
+    Item("2 closed loop", "600 rounds of the adaptive learner / of the paper's", "<=", 2.5,
+         ratio("trial/600_rounds_adaptive", "trial/600_rounds")),
     Item("3 echoes", "five sonars recorded / (raycasts + closed loop)", "<=", 1.5, with_echoes),
     Item("4 growth", "whether a step is free: 8000 / 8 obstacles, arena kept", "<=", 1.5,
          ratio("clearance/free_step_8000", "clearance/free_step")),
@@ -101,6 +103,8 @@ ITEMS = [
 FIGURES = {
     "whole experiments per minute on two cores": lambda m: 60.0 * m["runs/per_second_2"],
     "replay with memory asked for as it goes / Q loop": ratio("learner/replay_from_nothing", Q),
+    "adaptive learner: bytes a situation, five motions": lambda m: m["memory/adaptive_situation"],
+    "adaptive learner: bytes an outcome": lambda m: m["memory/adaptive_outcome"],
     "bytes per situation with spare capacity": lambda m: m["memory/grown_mean"],
     "free steps of the closed loop [ns]": free_loop,
     "share of contacts in a free learning": lambda m: m["contact_share"],

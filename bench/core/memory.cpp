@@ -7,6 +7,7 @@
 
 #include <cstdio>
 
+#include "devlearn/adaptive.hpp"
 #include "devlearn/learner.hpp"
 
 namespace {
@@ -28,6 +29,17 @@ double bytes_per_situation(SituationId situations, bool reserved) {
   return (in_use() - before) / static_cast<double>(situations);
 }
 
+// So many situations and, between neighbours, outcomes.
+double adaptive_bytes(SituationId situations, int outcomes) {
+  const double before = in_use();
+  AdaptiveLearner learner;
+  learner.reserve(static_cast<std::size_t>(situations),
+                  static_cast<std::size_t>(situations) * static_cast<std::size_t>(outcomes));
+  for (SituationId i = 0; i < situations; ++i)
+    learner.update(i, 0, 1.0, (i + 1) % situations, 1.0, 1.0);
+  return in_use() - before;
+}
+
 }  // namespace
 
 int main() {
@@ -42,8 +54,11 @@ int main() {
     mean += reserved / kSizes;
     mean_grown += bytes_per_situation(situations, false) / kSizes;
   }
+  constexpr SituationId kAdaptive = SituationId{1} << 20;
+  const double one = adaptive_bytes(kAdaptive, 1), two = adaptive_bytes(kAdaptive, 2);
+  const double outcome = (two - one) / kAdaptive, situation = one / kAdaptive - outcome;
   std::printf(
       "{\"reserved_least\": %.2f, \"reserved_mean\": %.2f, \"reserved_most\": %.2f, "
-      "\"grown_mean\": %.2f}\n",
-      least, mean, most, mean_grown);
+      "\"grown_mean\": %.2f, \"adaptive_situation\": %.2f, \"adaptive_outcome\": %.2f}\n",
+      least, mean, most, mean_grown, situation, outcome);
 }

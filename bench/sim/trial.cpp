@@ -90,6 +90,29 @@ const auto* const experiment = add("trial/experiment", [](benchmark::State& stat
   per_step(state, steps);
 });
 
+// 600 rounds of path learning under either preset, four seeds.
+void rounds(benchmark::State& state, const TrialConfig& config) {
+  const World world = paper();
+  double steps = 0.0;
+  for (auto _ : state) {
+    steps = 0.0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      Trial trial(world, config, seed);
+      Record record;
+      trial.path_learning(record, 600);
+      steps += static_cast<double>(record.steps());
+    }
+  }
+  per_step(state, steps);
+}
+
+const auto* const paper_rounds =
+    add("trial/600_rounds", [](benchmark::State& state) { rounds(state, TrialConfig::paper()); });
+
+const auto* const adaptive_rounds = add("trial/600_rounds_adaptive", [](benchmark::State& state) {
+  rounds(state, TrialConfig::adaptive());
+});
+
 // --- growth ------------------------------------------------------------------------------------
 
 const auto* const arena_grown =
