@@ -26,13 +26,15 @@ def write_report(
     statistics: Sequence[Drawn],
     table_1: Sequence[Sequence[Any]],
     summary: Sequence[Sequence[Any]],
+    presets: tuple[Drawn, Sequence[Sequence[Any]]],
     provenance: Mapping[str, Any],
     seeds: int,
     seconds: float,
 ) -> None:
     """Write the report to one file, with the pictures that are in ``figures`` beside it.
 
-    ``verdicts`` by preset, ``drawn`` by the paper's number. Raises FileError.
+    ``verdicts`` by preset, ``drawn`` by the paper's number, ``presets`` of every world: picture and
+    table. Raises FileError.
     """
 
     def data_uri(figure: Drawn) -> str:
@@ -58,6 +60,7 @@ def write_report(
         statistics=statistics,
         table_1=table_1,
         summary=summary,
+        presets=presets,
         provenance=provenance,
         schedule=schedule.SECTION_VI,
         seeds=seeds,

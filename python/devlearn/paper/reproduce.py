@@ -11,10 +11,11 @@ from typing import Any
 
 from .. import _core
 from .._files import owned_folder
+from .._worlds import worlds
 from ..errors import InvalidValue
 from ..experiments.runs import Journal, run_all
 from ..record import provenance_of, written_aside
-from . import figures, jobs, places, schedule
+from . import beyond, figures, jobs, places, schedule
 from .claims import Results, Verdict, judge
 from .figures import save_figure
 from .measures import Measures
@@ -51,6 +52,7 @@ def _reproduce(folder: Path, seeds: int, workers: int | None, say: Say) -> dict[
         say(f"{journal.damaged} damaged entries of runs.jsonl are run again")
     try:
         results = _run(world, range(1, seeds + 1), journal, workers, say)
+        everywhere, shortest = _run_beyond(seeds, journal, workers, say)
     finally:
         journal.close()
     verdicts = {name: judge(result) for name, result in results.items()}
@@ -66,6 +68,10 @@ def _reproduce(folder: Path, seeds: int, workers: int | None, say: Say) -> dict[
         save_figure(folder / "figures", figure)
 
     say("writing tables and report")
+    presets = beyond.draw(everywhere, shortest)
+    save_figure(folder / "figures", presets)
+    presets_table = beyond.table(everywhere, shortest)
+    write_csv(folder / "beyond.csv", presets_table)
     table = table_1(gallery.settled[0], results)
     write_csv(folder / "table1.csv", table)
     summary = summarise(results, gallery.shortest)
@@ -78,6 +84,7 @@ def _reproduce(folder: Path, seeds: int, workers: int | None, say: Say) -> dict[
         "claims": {name: list(map(verdict_as_values, v)) for name, v in verdicts.items()},
         "shortest": gallery.shortest,
         "runs": {name: result._asdict() for name, result in results.items()},
+        "beyond": everywhere,
     }
     with written_aside(folder / "numbers.json", "w") as file:
         json.dump(without_nan(numbers), file, indent=1)
@@ -88,6 +95,7 @@ def _reproduce(folder: Path, seeds: int, workers: int | None, say: Say) -> dict[
         statistics,
         table,
         summary,
+        (presets, presets_table),
         provenance,
         seeds,
         seconds,
@@ -155,3 +163,15 @@ def _run(
         )
         results[name] = Results(runs, random, in_similar, random_in_similar, by_sigma, reseeded)
     return results
+
+
+def _run_beyond(
+    seeds: int, journal: Journal, workers: int | None, say: Say
+) -> tuple[dict[str, dict[str, list[Measures]]], dict[str, int]]:
+    names = worlds()
+    used = range(1, min(seeds, beyond.MOST_SEEDS) + 1)
+    jobs_beyond = beyond.planned(names, used)
+    what = "beyond the paper: both presets in every world"
+    say(f"{what}: {len(jobs_beyond)} runs")
+    runs = run_all(beyond.execute, jobs_beyond, journal, workers=workers, what=what)
+    return beyond.by_world(names, used, runs), beyond.shortest_of(names)
