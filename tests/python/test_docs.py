@@ -1,4 +1,4 @@
-"""The embedding guide's programs compile as they stand, and the reference leaves out no header."""
+"""The guides' programs run as they stand, and references leave nothing out."""
 
 import json
 import re
@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import devlearn
 import pytest
 
 ROOT = Path(__file__).parents[2]
@@ -18,6 +19,7 @@ double evaluate();
 bool running();
 std::int64_t situation();
 void execute(int motion);
+double estimate(), cost();
 int safe(int motion);
 """
 # What a piece within the loop finds around it.
@@ -117,3 +119,36 @@ def test_every_example_is_in_both_languages_in_the_list_and_in_the_reference():
     assert stems == {path.stem for path in examples.glob("*.py")}
     assert stems == set(re.findall(r"^\| `(\d\d_\w+)`", listed, re.MULTILINE))
     assert set(re.findall(r"/examples/(\d\d_\w+)\.\w+$", reference, re.MULTILINE)) == stems
+
+
+ADAPTIVE = (ROOT / "docs/adaptive.md").read_text(encoding="utf-8")
+
+
+def test_the_adaptive_guides_code_runs_and_finds_a_habit():
+    (code,) = re.findall(r"```python\n(.*?)```", ADAPTIVE, re.DOTALL)
+    names = {}
+    exec(code, names)
+    assert names["paths"].rounds["arrived"].all()
+    assert names["trial"].learner.habit_cost is not None
+
+
+def test_the_adaptive_guide_tells_of_every_setting():
+    settings = ADAPTIVE[ADAPTIVE.index("## Settings") : ADAPTIVE.index("## What costs time")]
+    rows = set(re.findall(r"`(\w+)`", settings))
+    assert set(devlearn.AdaptiveConfig.fields()) - {"motion_count"} <= rows
+
+
+def test_the_format_tells_of_every_entry_and_array_of_an_adaptive_learner():
+    bytes_ = devlearn.AdaptiveLearner(devlearn.AdaptiveConfig(curious_every=1)).to_bytes()
+    size = int.from_bytes(bytes_[:8], "little")
+    header = json.loads(bytes_[8 : 8 + size])
+    text = (ROOT / "docs/snapshot-format.md").read_text(encoding="utf-8")
+    section = text[text.index("## An adaptive learner") : text.index("## A trial")]
+    told = set(re.findall(r"`([\w.]+)`", section))
+    of_all = {"format", "format_version", "devlearn", "commit", "checksum"}
+    named = {*header.pop("__metadata__"), *header} - of_all
+    assert {
+        name for name in named if not name.startswith(("home.", "falling.", "hope.", "path."))
+    } <= told
+    assert {name.split(".")[1] for name in named if name.startswith("hope.")} <= told
+    assert {name.replace("path.", "habit.") for name in named if name.startswith("path.")} <= told
