@@ -529,7 +529,8 @@ TEST_CASE("what is out of range is refused, by name, and nothing has changed") {
   check_refused([&] { learner.update(1, 1, -1.0, 2, 1.0); }, "cost", "-1");
   check_refused([&] { learner.forget(-3); }, "situation", "-3");
   check_refused([&] { learner.explain(-3); }, "situation", "-3");
-  check_refused([&] { learner.reserve(std::size_t{1} << 40, 0); }, "situations", "1099511627776");
+  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  check_refused([&] { learner.reserve(kMost, 0); }, "situations", std::to_string(kMost));
   CHECK(to_bytes(learner) == before);
   learner.choose(1, 57.0);
   before = to_bytes(learner);
