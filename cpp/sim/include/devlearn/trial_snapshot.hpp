@@ -61,10 +61,10 @@ TrialSnapshot load_trial(const std::byte* bytes, std::size_t size, const LoadOpt
 /// The record in a trial's snapshot, and what it was made in.
 struct RecordSnapshot {
   std::optional<Record> record;  ///< where one was saved
-  World world;
-  TrialConfig config;
-  std::uint64_t seed;  ///< the trial's
-  std::string note;    ///< as given to save
+  World world;                   ///< it happened in
+  TrialConfig config;            ///< the trial's
+  std::uint64_t seed;            ///< the trial's
+  std::string note;              ///< as given to save
 };
 
 /// Needs neither the agent nor functions of one's own. Throws FileError.
