@@ -142,13 +142,13 @@ struct AdaptiveHabit {
     using namespace detail;
     using C = AdaptiveHabit;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    constexpr WholeNumbers kRounds = whole(0, 1'000'000'000'000'000'000);  // more can be counted
     return described(
         "habit", field("cost", &C::cost, "", closed(0.0, kInfinity), "of the habit; inf: none"),
         field("least", &C::least, "", closed(0.0, kInfinity), "cost of any round that arrived"),
         field("start", &C::start, "", whole(-1, 2'147'483'646), "situation it begins in"),
-        field("since", &C::since, "", whole(0, std::numeric_limits<std::int64_t>::max()),
-              "rounds without a better one"),
-        field("since_look", &C::since_look, "", whole(0, std::numeric_limits<std::int64_t>::max()),
+        field("since", &C::since, "", kRounds, "rounds without a better one"),
+        field("since_look", &C::since_look, "", kRounds,
               "rounds by habit since the last look for what has opened"),
         field("looking", &C::looking, "", Truth{}, "whether such a look is under way"));
   }

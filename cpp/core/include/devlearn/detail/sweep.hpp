@@ -23,7 +23,7 @@ struct Sweep {
     return described(
         "sweep",
         field("next", &C::next, "", whole(-1, 2'147'483'646), "situation; -1: not under way"),
-        field("passes", &C::passes, "", whole(0, 1'000'000), "left, this one included"),
+        field("passes", &C::passes, "", whole(0, 1'000), "left, this one included"),
         field("found", &C::found, "", Truth{}, "whether this pass, or the last, found something"),
         field("change", &C::change, "", closed(0.0, std::numeric_limits<double>::infinity()),
               "the largest in this pass"));
