@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 #define eigen_assert(holds) static_cast<void>((holds) || ++allocations)
 static long allocations = 0;
 
+#include "devlearn/adaptive.hpp"
 #include "devlearn/eigen.hpp"
 #include "devlearn/learner.hpp"
 #include "devlearn/random.hpp"
@@ -163,6 +165,41 @@ void require_alike(Learner a, Learner b) {
   REQUIRE(to_bytes(a) == to_bytes(b));
 }
 
+// 150 rounds of an adaptive learner along a row of cells, two places each, and every other call
+// that there is in between; look() after each step. Motion 0 steps on, 1 back; 2 leaps over three
+// cells, once that is open, and is in vain before.
+template <typename Look>
+void adaptive_rounds(AdaptiveLearner& learner, const Look& look) {
+  constexpr int kPlaces = 40;
+  Random random(3, "row");
+  for (int round = 0; round < 150; ++round) {
+    learner.begin_round();
+    int place = random.index(20) == 0 ? 12 : 0;
+    const auto estimate = [&] { return (kPlaces - place) / 4.0; };
+    for (int step = 0; place < kPlaces && step < 300; ++step) {
+      const bool mask[] = {true, random.index(2) == 0, random.index(2) == 0};
+      const AllowedMotions allowed =
+          random.index(20) == 0 ? AllowedMotions(mask) : AllowedMotions();
+      const Choice choice = learner.choose(place / 2, estimate(), allowed);
+      if (random.index(50) == 0) {
+        learner.cancel();
+        continue;
+      }
+      const bool vain = choice.motion == 2 && (round < 70 || place % 4 != 0);
+      if (choice.motion == 0) ++place;
+      if (choice.motion == 1 && place > 0) --place;
+      if (choice.motion == 2 && !vain) place += 6;
+      const bool arrived = place >= kPlaces;
+      learner.learn(vain ? 6.0 : 1.0, place / 2, arrived ? 0.0 : estimate(), vain);
+      if (random.index(200) == 0) learner.update(3, 1, 2.0, 2, 9.0);
+      if (random.index(2000) == 0 && place > 4) learner.forget(0);
+      learner.best(place / 2);
+      look();
+    }
+    if (random.index(10) != 0) learner.end_round(place >= kPlaces);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("up to the reserved situations nothing is allocated, whatever is met") {
@@ -295,4 +332,45 @@ TEST_CASE("what is computed of many is filled in without allocating") {
   CHECK(ids(69) == grid.situation(1.0, 1.0, 1.0));
   // The count counts.
   CHECK(allocations_in([&] { fill_evaluations({}, goals + 1.0, obstacles, sef.col(0)); }) > 0);
+}
+
+TEST_CASE("up to the reserved situations and outcomes an adaptive learner allocates nothing") {
+  for (const int curious_every : {0, 2}) {
+    for (const int sweep_limit : {0, 10}) {
+      AdaptiveConfig config;
+      config.motion_count = 3;
+      config.patience = 0;
+      config.tolerance = 0.5;
+      config.enough = 1.0;
+      config.recollections = 1;
+      config.curious_every = curious_every;
+      config.stale_after = 10;
+      config.sweep_limit = sweep_limit;
+      bool by_habit = false, deviated = false, homeward = false, curious = false, swept = false;
+      std::size_t outcomes = 0;
+      AdaptiveLearner twin(config, 1);
+      adaptive_rounds(twin, [&] {
+        const AdaptiveState state = twin.state();
+        outcomes = std::max(outcomes, twin.outcomes());
+        by_habit = by_habit || state.round.by_habit;
+        deviated = deviated || state.round.deviated;
+        homeward = homeward || state.round.decisions_home >= 0;
+        curious = curious || state.round.curious;
+        swept = swept || state.falling.under_way() || state.hope.under_way();
+      });
+      CHECK(by_habit);
+      CHECK(deviated);
+      CHECK(homeward);
+      CHECK(twin.optimism() < config.optimism);
+      CHECK(curious == (curious_every > 0));
+      CHECK(swept == (sweep_limit > 0));
+
+      AdaptiveLearner learner(config, 1);
+      learner.reserve(twin.situations_experienced(), outcomes);
+      CHECK(allocations_in([&] { adaptive_rounds(learner, [] {}); }) == 0);
+      CHECK(to_bytes(learner) == to_bytes(twin));
+      // The count counts.
+      CHECK(allocations_in([&] { learner.update(1'000'000, 0, 1.0, 2'000'000, 1.0, 1.0); }) > 0);
+    }
+  }
 }

@@ -33,7 +33,8 @@ class OutcomeStore {
     times_.reserve(mappings);
     to_.reserve(situations);
   }
-  void reserve(std::size_t outcomes) { each_.reserve(outcomes); }
+  /// For so many in all, and the one that make_room() keeps free.
+  void reserve(std::size_t outcomes) { each_.reserve(outcomes + 1); }
 
   /// Room for one more, so that add() allocates nothing.
   void make_room() {
