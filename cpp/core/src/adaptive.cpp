@@ -16,7 +16,6 @@ constexpr double kMostCost = 1e12;
 constexpr std::size_t kMostMappings = 0xfffffffe;
 constexpr std::size_t kMostSituations = 0x7ffffffe;
 
-constexpr double kTie = 1e-9;          // between losses that count as equal
 constexpr double kSmallChange = 0.05;  // of E, that those who lead there need not hear of
 
 // Falling optimism: by how much, and how far the change is followed at once.
@@ -304,7 +303,7 @@ AdaptiveLearner::Among AdaptiveLearner::best_by_values(Number here,
   for (int m = 0; m < config_.motion_count; ++m) {
     if (allowed(m)) least = std::min(least, q[m]);
   }
-  return {q, least + kTie, allowed};
+  return {q, least + detail::kSameLoss, allowed};
 }
 
 // Any motion of those, uniformly.

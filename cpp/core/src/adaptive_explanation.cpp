@@ -21,7 +21,9 @@ std::vector<double> probabilities(const AdaptiveMemory& memory, const std::vecto
   for (std::size_t m = 0; m < allowed.size(); ++m) {
     if (allowed[m]) least = std::min(least, memory.losses[m]);
   }
-  const auto among = [&](std::size_t m) { return allowed[m] && memory.losses[m] <= least + 1e-9; };
+  const auto among = [&](std::size_t m) {
+    return allowed[m] && memory.losses[m] <= least + detail::kSameLoss;
+  };
   const bool again = last >= 0 && among(static_cast<std::size_t>(last));
   std::vector<double> probability(allowed.size());
   for (std::size_t m = 0; m < allowed.size(); ++m) {

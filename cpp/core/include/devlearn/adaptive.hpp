@@ -18,6 +18,12 @@
 #include "devlearn/situation.hpp"
 
 namespace devlearn {
+namespace detail {
+
+/// Losses that differ by no more count as equal.
+inline constexpr double kSameLoss = 1e-9;
+
+}  // namespace detail
 
 /// The adaptive learner's parameters. Costs are in the caller's unit; in a trial a step costs 1.
 struct AdaptiveConfig {
