@@ -212,7 +212,7 @@ void require_named(const Contents& contents, const char* entry, const std::strin
                    const std::string& source) {
   const auto found = contents.metadata.find(entry);
   const std::string saved = found == contents.metadata.end() ? "" : found->second;
-  if (name_alone(saved) == name_alone(given)) return;
+  if (saved.empty() == given.empty() && name_alone(saved) == name_alone(given)) return;
   throw FileError(source, entry, saved.empty() ? "none" : excerpt(saved),
                   given.empty() ? "none, where no function is given; give the one of this name"
                                 : excerpt(given) + ", the name of the function given");

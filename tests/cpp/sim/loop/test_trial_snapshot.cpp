@@ -582,6 +582,7 @@ TEST_CASE("functions that are missing, others, or too many are refused by the na
   TrialParts table;
   table.sef_table.assign(static_cast<std::size_t>(Trial(shipped("paper")).grid().count()), 1.5);
   refused(both, {}, "own.evaluation", "progress");
+  refused(own_parts("here:", "gap"), {}, "own.evaluation", "here:");
   refused(both, own_parts("progress", "other"), "own.situations", "gap");
   refused({}, both, "own.evaluation", "none");
   refused(table, both, "own.evaluation", "none");
