@@ -14,6 +14,7 @@
 #define eigen_assert(holds) static_cast<void>((holds) || ++allocations)
 static long allocations = 0;
 
+#include "corridor.hpp"
 #include "devlearn/adaptive.hpp"
 #include "devlearn/eigen.hpp"
 #include "devlearn/learner.hpp"
@@ -165,38 +166,33 @@ void require_alike(Learner a, Learner b) {
   REQUIRE(to_bytes(a) == to_bytes(b));
 }
 
-// 150 rounds of an adaptive learner along a row of cells, two places each, and every other call
-// that there is in between; look() after each step. Motion 0 steps on, 1 back; 2 leaps over three
-// cells, once that is open, and is in vain before.
+// 150 rounds of an adaptive learner along a corridor whose door opens, and every other call that
+// there is in between; look() after each step.
 template <typename Look>
 void adaptive_rounds(AdaptiveLearner& learner, const Look& look) {
-  constexpr int kPlaces = 40;
-  Random random(3, "row");
+  Random random(3, "corridor");
   for (int round = 0; round < 150; ++round) {
     learner.begin_round();
-    int place = random.index(20) == 0 ? 12 : 0;
-    const auto estimate = [&] { return (kPlaces - place) / 4.0; };
-    for (int step = 0; place < kPlaces && step < 300; ++step) {
-      const bool mask[] = {true, random.index(2) == 0, random.index(2) == 0};
+    Corridor at;
+    at.place = random.index(20) == 0 ? 12 : 0;
+    at.door = round >= 70;
+    for (int step = 0; !at.arrived() && step < 300; ++step) {
+      const bool mask[] = {true, random.index(2) == 0, random.index(2) == 0, true};
       const AllowedMotions allowed =
           random.index(20) == 0 ? AllowedMotions(mask) : AllowedMotions();
-      const Choice choice = learner.choose(place / 2, estimate(), allowed);
+      const Choice choice = learner.choose(at.situation(), at.estimate(), allowed);
       if (random.index(50) == 0) {
         learner.cancel();
         continue;
       }
-      const bool vain = choice.motion == 2 && (round < 70 || place % 4 != 0);
-      if (choice.motion == 0) ++place;
-      if (choice.motion == 1 && place > 0) --place;
-      if (choice.motion == 2 && !vain) place += 6;
-      const bool arrived = place >= kPlaces;
-      learner.learn(vain ? 6.0 : 1.0, place / 2, arrived ? 0.0 : estimate(), vain);
+      const Corridor::Came came = at.step(choice.motion);
+      learner.learn(came.cost, at.situation(), at.arrived() ? 0.0 : at.estimate(), came.touched);
       if (random.index(200) == 0) learner.update(3, 1, 2.0, 2, 9.0);
-      if (random.index(2000) == 0 && place > 4) learner.forget(0);
-      learner.best(place / 2);
+      if (random.index(2000) == 0 && at.place > 5) learner.forget(0);
+      learner.best(at.situation());
       look();
     }
-    if (random.index(10) != 0) learner.end_round(place >= kPlaces);
+    if (random.index(10) != 0) learner.end_round(at.arrived());
   }
 }
 
@@ -337,8 +333,7 @@ TEST_CASE("what is computed of many is filled in without allocating") {
 TEST_CASE("up to the reserved situations and outcomes an adaptive learner allocates nothing") {
   for (const int curious_every : {0, 2}) {
     for (const int sweep_limit : {0, 10}) {
-      AdaptiveConfig config;
-      config.motion_count = 3;
+      AdaptiveConfig config = four_motions();
       config.patience = 0;
       config.tolerance = 0.5;
       config.enough = 1.0;

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "corridor.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/random.hpp"
 #include "devlearn/snapshot.hpp"
@@ -52,6 +53,82 @@ TEST_CASE("learners that earlier versions saved have the future that they had th
   check_kept_snapshots(
       "learner", [](const std::string& path) { save(experienced(nine_motions()), path); },
       [&](const std::string& path) { return future(load_learner(path)); });
+}
+
+namespace {
+
+void go_on(AdaptiveLearner& learner, Corridor& at) {
+  const Choice choice = learner.choose(at.situation(), at.estimate());
+  const Corridor::Came came = at.step(choice.motion);
+  learner.learn(came.cost, at.situation(), at.arrived() ? 0.0 : at.estimate(), came.touched);
+}
+
+// One in the middle of a decision, in a curious round: beside the habit, on the look for what has
+// opened.
+AdaptiveLearner curious_learner() {
+  AdaptiveConfig config = four_motions();
+  config.curious_every = 4;
+  config.stale_after = 10;
+  AdaptiveLearner learner(config, 7);
+  for (;;) {
+    Corridor at;
+    at.door = false;
+    learner.begin_round();
+    for (int step = 0; !at.arrived(); ++step) {
+      go_on(learner, at);
+      if (learner.state().round.curious && at.place == 2) return learner;
+    }
+    learner.end_round(true);
+  }
+}
+
+std::string line_of(std::initializer_list<double> numbers) {
+  std::string line;
+  for (const double number : numbers) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g ", number);
+    line += text;
+  }
+  line.back() = '\n';
+  return line;
+}
+
+// What it remembers, and then 12 rounds more, the first one from where it was.
+std::string past_and_future(AdaptiveLearner learner) {
+  std::string text;
+  for (const SituationId id : learner.situations()) {
+    const AdaptiveMemory memory = learner.situation(id);
+    text += line_of({static_cast<double>(id), memory.first_estimate, memory.expected_loss});
+    for (int m = 0; m < 4; ++m) text += line_of({memory.losses[m], double(memory.times[m])});
+  }
+  text += line_of({learner.habit_cost().value_or(-1.0), learner.optimism()});
+  Corridor at;
+  at.place = 2;
+  for (int round = 0; round < 12; ++round) {
+    while (!at.arrived()) {
+      const Choice choice = learner.choose(at.situation(), at.estimate());
+      const Corridor::Came came = at.step(choice.motion);
+      const Development d = learner.learn(came.cost, at.situation(),
+                                          at.arrived() ? 0.0 : at.estimate(), came.touched);
+      text += line_of({double(choice.motion), double(choice.kind), double(d.event),
+                       double(d.explored_count), double(d.effective_count), *d.value});
+    }
+    learner.end_round(true);
+    at.place = 0;
+    learner.begin_round();
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("adaptive learners that earlier versions saved have the past and future of then") {
+  const AdaptiveState state = curious_learner().state();
+  CHECK(state.round.by_habit);
+  CHECK(state.decision.steps > 0);
+  check_kept_snapshots(
+      "adaptive", [](const std::string& path) { save(curious_learner(), path); },
+      [](const std::string& path) { return past_and_future(load_adaptive_learner(path)); });
 }
 
 TEST_CASE("a file that a kill left on the side is written anew, and gone after the next save") {
