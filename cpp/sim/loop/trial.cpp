@@ -145,9 +145,7 @@ void TrialConfig::validate() const {
   }
 }
 
-bool operator==(const TrialConfig& a, const TrialConfig& b) {
-  return detail::same_fields(a, b);
-}
+bool operator==(const TrialConfig& a, const TrialConfig& b) { return detail::same_fields(a, b); }
 
 // --- the trial ---------------------------------------------------------------------------------
 

@@ -846,7 +846,8 @@ TEST_CASE("Eq. 6 and the grid, given as functions of one's own, make the same hi
 TEST_CASE("a table of SEFs is looked up by the grid's situation") {
   const SituationGrid grid = Trial(shipped("paper")).grid();
   TrialParts parts;
-  for (SituationId id = 0; id < grid.count(); ++id) parts.sef_table.push_back(0.5 * static_cast<double>(id));
+  for (SituationId id = 0; id < grid.count(); ++id)
+    parts.sef_table.push_back(0.5 * static_cast<double>(id));
   Trial trial(shipped("paper"), {}, 4, parts);
   const Record record = recorded([&](Record& r) { trial.free_learning(r, 200); });
   for (std::size_t i = 0; i < 200; ++i) {
