@@ -291,14 +291,19 @@ def percentiles(values: Sequence[float]) -> list[float]:
 
 
 def written(measure: Measure, runs: Sequence[Run], spread: bool = False) -> str:
-    """Median, with its spread (10 to 90 %); the share of runs with a value if some have none."""
+    """Median, with its spread (10 to 90 %); in how many of the runs, where some have no value."""
     values = [measure.of(run) for run in runs]
     finite = sum(value < math.inf for value in values) / len(values)
     if not finite:
         return "never"
-    low, middle, high = (measure.written(v) if v < math.inf else "-" for v in percentiles(values))
+    share = "" if finite == 1 else f"in {100 * finite:.0f} %"
+    low, middle, high = (
+        measure.written(v) if v < math.inf else "never" for v in percentiles(values)
+    )
+    if middle == "never":
+        return share
     text = f"{middle} ({low} to {high})" if spread and low != high else middle
-    return text if finite == 1 else f"{text}; {100 * finite:.0f} %"
+    return f"{text}, {share}" if share else text
 
 
 def table(corner: str, columns: Sequence[str], rows: Mapping[str, Sequence[str]]) -> str:
@@ -331,38 +336,32 @@ def tables(runs: Runs, compared: Sequence[str], names: Sequence[str]) -> str:
 
 
 def figure(runs: Runs, compared: Sequence[str], names: Sequence[str]) -> Any:
-    """Steps to 1.25 L and the last path, a column a world, a line an agent: median, 10 to 90 %."""
+    """Steps to 1.25 L and the last path, a column a world, a line a learner: median, 10 to 90 %."""
     import matplotlib as mpl
-    from devlearn.plots.style import BLUE, GREY, INK, STYLE, VERMILLION
+    from devlearn.plots.style import BLUE, INK, STYLE, VERMILLION
     from matplotlib.figure import Figure
 
-    colours = {COUNTED: VERMILLION, UNCOUNTED: VERMILLION, NONE: VERMILLION, ADAPTIVE: BLUE,
-               FLOOR: GREY, BOUND: GREY}  # fmt: skip
+    learners = [agent for agent in compared if agent not in (FLOOR, BOUND)]
+    colours = {COUNTED: VERMILLION, UNCOUNTED: VERMILLION, NONE: VERMILLION, ADAPTIVE: BLUE}
     shown = {
-        "steps to 1.25 L": {
-            100: "100",
-            1000: "1 k",
-            10_000: "10 k",
-            100_000: "100 k",
-            10**6: "1 M",
-        },
-        "last path / L": {tick: str(tick) for tick in (1, 2, 4, 10, 20, 40)},
+        "steps to 1.25 L": {1e2: "100", 1e3: "1 k", 1e4: "10 k", 1e5: "100 k", 1e6: "1 M"},
+        "last path / L": {tick: f"{tick:g}" for tick in (1, 2, 4, 8, 16, 32)},
     }
     with mpl.rc_context(STYLE):
-        drawn = Figure(figsize=(10.5, 6.0), layout="constrained")
+        drawn = Figure(figsize=(10.5, 5.0), layout="constrained")
         axes = drawn.subplots(2, len(names), sharex="row", sharey=True, squeeze=False)
         for row, (title, ticks) in zip(axes, shown.items()):
             finite: list[float] = []
             cells = {}
             for column, name in enumerate(names):
-                for place, agent in enumerate(compared):
+                for place, agent in enumerate(learners):
                     values = [MEASURES[title].of(run) for run in runs[agent, name]]
                     cells[column, place] = percentiles(values)
                     finite += [v for v in cells[column, place] if v < math.inf]
             left, right = 0.8 * min(finite), 1.25 * max(finite)
             never = 1.6 * right  # where what was never reached is drawn
             for (column, place), (low, middle, high) in cells.items():
-                ax, colour = row[column], colours.get(compared[place], INK)
+                ax, colour = row[column], colours.get(learners[place], INK)
                 known = middle < math.inf
                 ax.plot([min(low, never), min(high, never)], [place] * 2, color=colour, gid="range")
                 ax.plot(min(middle, never), place, color=colour, marker="o" if known else "x",
@@ -378,8 +377,8 @@ def figure(runs: Runs, compared: Sequence[str], names: Sequence[str]) -> Any:
                 ax.set_axisbelow(True)
                 ax.set_title(name)
             row[len(names) // 2].set_xlabel(f"{title} (median, 10 to 90 %; x: never)")
-            row[0].set_yticks(range(len(compared)), compared)
-            row[0].set_ylim(len(compared) - 0.5, -0.5)
+            row[0].set_yticks(range(len(learners)), learners)
+            row[0].set_ylim(len(learners) - 0.5, -0.5)
     return drawn
 
 
