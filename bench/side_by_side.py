@@ -13,7 +13,8 @@ and 11 drawn from the choices in `SEARCHED`, in the worlds similar:40 to similar
 counting as 10 000 steps. What was found is in side_by_side_settings.json.
 
     python bench/side_by_side.py FOLDER              runs what is missing, writes tables and figure
-    python bench/side_by_side.py FOLDER --search     searches the settings anew, then the same
+    python bench/side_by_side.py FOLDER --search     searches the settings anew, then the same;
+                                                     --search KIND:SEED ... in other worlds
 
 Stopped, both go on where they were.
 """
@@ -258,9 +259,9 @@ def cost(run: Run) -> float:
     return (steps + LIMIT * (run.planned - len(run.steps))) / (run.planned * run.shortest)
 
 
-def search(journal: Journal, workers: int) -> dict[str, Any]:
-    """For each agent the settings of the least cost."""
-    shortest = shortest_of(SEARCH_WORLDS)
+def search(names: Sequence[str], journal: Journal, workers: int) -> dict[str, Any]:
+    """For each agent the settings of the least cost in these worlds."""
+    shortest = shortest_of(names)
     found: dict[str, Any] = {}
     for agent in SEARCHED:
         tried = drawn_settings(agent)
@@ -268,7 +269,7 @@ def search(journal: Journal, workers: int) -> dict[str, Any]:
             {"agent": agent, "settings": settings, "world": world, "seed": seed,
              "rounds": SEARCH_ROUNDS, "most_steps": SEARCH_STEPS}
             for settings in tried
-            for world in SEARCH_WORLDS
+            for world in names
             for seed in SEARCH_SEEDS
         ]  # fmt: skip
         results = run_all(execute, jobs, journal, workers=workers, what=f"settings of {agent}")
@@ -391,7 +392,7 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--search", action="store_true", help="search the settings anew")
+    parser.add_argument("--search", nargs="*", metavar="WORLD", help="search the settings anew")
     parser.add_argument("--worlds", nargs="+", default=worlds(), help="names, or KIND:SEED")
     parser.add_argument("--agents", nargs="+", default=COMPARED, choices=COMPARED)
     parser.add_argument("--seeds", type=int, default=SEEDS, help="how many, from 200 on")
@@ -400,8 +401,9 @@ def main() -> None:
     asked = parser.parse_args()
     os.nice(10)
     journal = Journal(asked.folder / "side_by_side.jsonl")
-    if asked.search:
-        SETTINGS.write_text(json.dumps(search(journal, asked.workers), indent=2) + "\n")
+    if asked.search is not None:
+        found = search(asked.search or SEARCH_WORLDS, journal, asked.workers)
+        SETTINGS.write_text(json.dumps(found, indent=2) + "\n")
     settings = json.loads(SETTINGS.read_text())
     shortest = shortest_of(asked.worlds)
     made = [COUNTED if agent == UNCOUNTED else agent for agent in asked.agents]  # the same runs
