@@ -57,8 +57,7 @@ def whole_history(trial, steps):
     return joined([free, again, trial.path_learning(20, 400)])
 
 
-@pytest.mark.parametrize("preset", ["paper", "step5"])
-def test_the_golden_trial_is_repeated_to_the_last_bit(preset):
+def golden_trial(preset):
     world = World(
         12,
         12,
@@ -71,9 +70,16 @@ def test_the_golden_trial_is_repeated_to_the_last_bit(preset):
         ],
         name="open",
     )
-    evaluation = devlearn.StateEvaluation(a3=3, a4=0.5, a5=1.5)
-    config = getattr(TrialConfig, preset)().replace(evaluation=evaluation)
-    record = whole_history(Trial(world, config, seed=2), 3000)
+    config = getattr(TrialConfig, preset)()
+    config = config.replace(evaluation=devlearn.StateEvaluation(a3=3, a4=0.5, a5=1.5))
+    if preset == "adaptive":  # it goes about more than the others
+        config = config.replace(robot=config.robot.replace(safety_margin=0.05))
+    return Trial(world, config, seed=2)
+
+
+@pytest.mark.parametrize("preset", ["paper", "step5", "adaptive"])
+def test_the_golden_trial_is_repeated_to_the_last_bit(preset):
+    record = whole_history(golden_trial(preset), 3000)
     assert not record.collided.any()  # so Box2D has no say in it
     lines = lines_of(record)
     golden = (GOLDEN / f"trial_{preset}.txt").read_text().splitlines()
@@ -83,6 +89,27 @@ def test_the_golden_trial_is_repeated_to_the_last_bit(preset):
     for byte in "".join(line + "\n" for line in lines).encode():
         digest = (digest ^ byte) * 0x100000001B3 % 2**64
     assert golden[0] == f"hash {digest:016x} of {len(lines)} lines"
+
+
+def test_the_adaptive_preset_makes_one_history_at_once_step_by_step_and_in_threads():
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        records = list(pool.map(lambda _: whole_history(golden_trial("adaptive"), 3000), range(4)))
+    record = whole_history(golden_trial("adaptive"), 3000)
+    assert all(differences(record, other) == [] for other in records)
+
+    trial, steps = golden_trial("adaptive"), []
+    for count, until_arrival in [(3000, False), (1500, False), *[(400, True)] * 20]:
+        trial.begin_round()
+        for _ in range(count):
+            steps.append(trial.step())
+            if until_arrival and steps[-1].arrived:
+                trial.learner.end_round(True)
+                break
+    assert len(steps) == len(record.motion)
+    for name in devlearn.record.STEP_COLUMNS:
+        column = getattr(record, name)
+        assert same(np.array([getattr(s, name) for s in steps], column.dtype), column), name
+    assert trial.learner.habit_cost is not None
 
 
 def cpp_tests():

@@ -143,6 +143,12 @@ TEST_CASE("the golden trial of step 5's preset is repeated to the last bit") {
   check_golden_without_contacts("step5", TrialConfig::step5());
 }
 
+TEST_CASE("the golden trial of the adaptive preset is repeated to the last bit") {
+  TrialConfig config = TrialConfig::adaptive();
+  config.robot.safety_margin = 0.05;  // it goes about more than the others
+  check_golden_without_contacts("adaptive", config);
+}
+
 // What is touched is Box2D's: a history of its own for each version and architecture.
 TEST_CASE("the golden trial with contacts is repeated to the last bit where one is kept") {
   Trial trial(shipped("paper"), {}, 2);
