@@ -123,11 +123,12 @@ void bind_adaptive(py::module_& m) {
           py::arg("config") = py::none(), py::arg("seed") = 0)
       .def(
           "begin_round", [](IdleLearner self) { self->begin_round(); },
-          "A round begins; an open decision is dropped.")
+          "A round begins, where its first step is made; an open decision is dropped.")
       .def(
           "end_round", [](IdleLearner self, bool arrived) { self->end_round(arrived); },
           py::arg("arrived").noconvert(),
-          "A round ends, at the goal or not. Raises InvalidValue where none has begun.")
+          "A round ends, at the goal or not; one without a step counts for nothing. Raises "
+          "InvalidValue where none has begun.")
       .def(
           "choose",
           [](IdleLearner self, Whole<SituationTag> situation, double estimate,

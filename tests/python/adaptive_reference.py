@@ -270,7 +270,7 @@ class Adaptive:
             with self.counted(situation):
                 at.allowed = allowed
                 self.settle(situation)
-        if self.round and self.round.start is None:
+        if self.round and not self.round.path and self.round.start != situation:
             self.start_round(situation, estimate)
         motion, kind = self.decide(situation, estimate)
         cost = self.round.cost if self.round else 0.0
@@ -417,7 +417,7 @@ class Adaptive:
         ended, self.round = self.round, None
         self.decision = None
         self.waiting = False
-        if ended and ended.start is not None:
+        if ended and ended.path:
             self.count_round(ended, arrived)
 
     def count_round(self, ended, arrived):
@@ -440,6 +440,8 @@ class Adaptive:
     def start_round(self, situation, estimate):
         now = self.round
         now.start = situation
+        now.curious = now.deviated = False
+        now.target = None
         now.by_habit = (
             situation == self.habit_start
             and self.since >= self.patience

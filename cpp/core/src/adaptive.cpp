@@ -59,7 +59,6 @@ AdaptiveLearner::AdaptiveLearner(const AdaptiveConfig& config, std::uint64_t see
       seed_(seed),
       random_(seed, "agent"),
       optimism_(config.optimism) {
-  recollected_.reserve(static_cast<std::size_t>(std::min(config_.recollections, 1000)));
   last_.losses.resize(motions());
   last_.times.resize(motions());
   last_.allowed.resize(motions());
@@ -97,6 +96,12 @@ void AdaptiveLearner::reserve(std::size_t situations, std::size_t outcomes) {
   outcomes_.reserve_chains(mappings, situations);
   outcomes_.reserve(outcomes);
   priorities_.reserve(mappings);
+  recollected_.reserve(most_told());
+}
+
+// How many recollections of a decision are told.
+std::size_t AdaptiveLearner::most_told() const noexcept {
+  return static_cast<std::size_t>(std::min(config_.recollections, 1000));
 }
 
 // The number of a situation; a new one is as Phi says.
@@ -179,7 +184,7 @@ void AdaptiveLearner::recollect(int times) {
     settle(situation);
     what.loss = q_[first];
     what.expected = at_[situation].loss;
-    if (recollected_.size() < recollected_.capacity()) recollected_.push_back(what);
+    if (recollected_.size() < most_told()) recollected_.push_back(what);
   }
 }
 
@@ -227,7 +232,9 @@ Choice AdaptiveLearner::choose(SituationId situation, double estimate, AllowedMo
                    same ? estimate : decision_.last_estimate, true, development);
   }
   allow(here, allowed);
-  if (round_.begun && !round_.over && round_.start < 0) start_round(here, estimate);
+  if (in_round() && path_.empty() && round_.start != static_cast<int>(here)) {
+    start_round(here, estimate);
+  }
   remember_choice(here, allowed);
   const Choice choice = decide(here, estimate, allowed);
   last_.choice = choice;
@@ -506,7 +513,7 @@ void AdaptiveLearner::end_round(bool arrived) {
   const AdaptiveRound round = round_;
   decision_ = {};
   round_ = {};
-  if (!round.over && round.start >= 0) count_round(round, arrived);
+  if (!round.over && !path_.empty()) count_round(round, arrived);
   path_.clear();
 }
 
@@ -536,8 +543,11 @@ int AdaptiveLearner::deviation_here(Number here) const noexcept {
   return target ? round_.target_motion : -1;
 }
 
-// At a round's first decision: whether it goes by habit, and where it is to deviate.
+// At a round's first decision: whether it goes by habit, and where it is to deviate. Likewise where
+// that one was cancelled, and the first step is made elsewhere.
 void AdaptiveLearner::start_round(Number here, double estimate) {
+  round_.curious = round_.deviated = false;
+  round_.target_situation = round_.target_motion = -1;
   round_.start = static_cast<int>(here);
   round_.by_habit =
       round_.start == habit_.start && habit_.since >= config_.patience && habit_.cost < kInfinity;

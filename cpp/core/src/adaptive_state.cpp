@@ -154,8 +154,10 @@ void require_course(const AdaptiveState& state) {
   require_count("round.target_motion", round.target_motion, -1, state.config.motion_count - 1);
   require_law((round.target_situation < 0) == (round.target_motion < 0), "round.target_motion",
               std::to_string(round.target_motion), "-1 where there is no target, and only there");
-  require_law(round.begun || all.path.situation.empty(), "path.situation",
-              std::to_string(all.path.situation.size()) + " situations", "none before a round");
+  const auto& way = all.path.situation;
+  require_law(way.empty() || (round.begun && static_cast<long long>(way[0]) == round.start),
+              "path.situation", std::to_string(way.size()) + " situations",
+              "those of the round, from its start");
   require_law(
       !round.by_habit || (round.begun && !round.over && any_habit && round.start == habit.start),
       "round.by_habit", "true", "false but in a round from where the habit begins");
@@ -174,7 +176,6 @@ void require_course(const AdaptiveState& state) {
   require_law(decision.steps == 0 || decision.steps < state.config.hold_limit, "decision.steps",
               std::to_string(decision.steps), "below hold_limit");
   if (open && decision.steps > 0 && round.begun && !round.over) {
-    const auto& way = all.path.situation;
     const auto here = static_cast<std::uint32_t>(decision.situation);
     require_law(std::find(way.begin(), way.end(), here) != way.end(), "decision.situation",
                 std::to_string(decision.situation), "one on the round's path");

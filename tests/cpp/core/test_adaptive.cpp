@@ -320,6 +320,42 @@ TEST_CASE("cancel before the first step undoes the choice, later it ends the dec
   CHECK(learner.choose(3, 8.5).kind != Kind::kHeld);
 }
 
+TEST_CASE("a round without a step counts for nothing, and makes no habit") {
+  AdaptiveLearner learner(four_motions(), 9);
+  learner.begin_round();
+  learner.choose(3, 9.0);
+  learner.end_round(true);
+  learner.begin_round();
+  learner.choose(3, 9.0);
+  learner.cancel();
+  learner.end_round(true);
+  CHECK_FALSE(learner.habit_cost().has_value());
+  CHECK(learner.state().habit.since == 0);
+  CHECK(to_bytes(AdaptiveLearner(learner.state())) == to_bytes(learner));
+}
+
+TEST_CASE("a round begins where its first step is made, and its habit, too") {
+  AdaptiveConfig config = four_motions();
+  config.patience = 0;
+  AdaptiveLearner learner(config, 9);
+  const auto go_from = [&learner](SituationId cancelled) {
+    learner.begin_round();
+    learner.choose(cancelled, 9.0);
+    learner.cancel();
+    learner.choose(4, 5.0);
+    const bool by_habit = learner.state().round.by_habit;
+    learner.learn(5.0, 0, 0.0);
+    learner.end_round(true);
+    CHECK(to_bytes(AdaptiveLearner(learner.state())) == to_bytes(learner));
+    return by_habit;
+  };
+  CHECK_FALSE(go_from(3));
+  CHECK(learner.habit_cost() == 5.0);
+  CHECK(learner.state().arrays.habit.situation == std::vector<std::uint32_t>{1});  // that is 4
+  CHECK(go_from(3));
+  CHECK(go_from(4));
+}
+
 TEST_CASE("what is forgotten is as at the first meeting, and a habit through it is dropped") {
   AdaptiveLearner learner(four_motions(), 10);
   rounds(learner, 100);
@@ -451,6 +487,13 @@ TEST_CASE("copies go on alike, and apart") {
   CHECK(rounds(copy, 50) == rounds(learner, 50));
   rounds(copy, 1, false);
   CHECK(to_bytes(copy) != to_bytes(learner));
+}
+
+TEST_CASE("a copy tells of its recollections, too") {
+  const AdaptiveLearner fresh(four_motions(), 22);
+  AdaptiveLearner copy = fresh;
+  copy.update(1, 0, 4.0, 2, 9.0, 10.0);
+  CHECK(copy.explain(1).recollections.size() == 1);
 }
 
 TEST_CASE("room that was reserved changes nothing") {

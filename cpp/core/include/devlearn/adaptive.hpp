@@ -299,10 +299,10 @@ class AdaptiveLearner {
   /// One that goes on from a state. Throws InvalidValue where the state breaks a law.
   explicit AdaptiveLearner(const AdaptiveState& state);
 
-  /// A round begins; an open decision is dropped.
+  /// A round begins, where its first step is made; an open decision is dropped.
   void begin_round();
-  /// A round ends, at the goal or not; an open decision is dropped. Throws InvalidValue where none
-  /// has begun.
+  /// A round ends, at the goal or not; an open decision is dropped. One without a step counts for
+  /// nothing. Throws InvalidValue where none has begun.
   void end_round(bool arrived);
 
   /// The motion for the next step: the one that is held, or a new decision. situation >= 0;
@@ -433,6 +433,7 @@ class AdaptiveLearner {
 
   // Situations and their values
   std::size_t most_situations() const noexcept;
+  std::size_t most_told() const noexcept;
   Number meet(SituationId situation, double estimate);
   Number motions() const noexcept { return static_cast<Number>(config_.motion_count); }
   Number mapping(Number situation, int motion) const noexcept {
