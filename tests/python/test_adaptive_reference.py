@@ -185,7 +185,7 @@ def one_step(pair, task, disturbed):
     return None
 
 
-CURIOUS = {"curious_every": 3, "stale_after": 10, "patience": 3, "tolerance": 0.5}
+CURIOUS = {"curious_every": 3, "stale_after": 10, "patience": 3, "tolerance": 0.5, "detour": 100.0}
 EVERYTHING = {"EXPLORE", "EXPLOIT", "EXTENSION", "ORIENTATION", "HABIT", "by habit"}
 EVERYTHING |= {"homeward", "habit dropped", "cancel", "forget"}
 
