@@ -246,6 +246,22 @@ TEST_CASE("a look for what has opened ends with the habit that it was for") {
   REQUIRE(learner.state().habit.looking);
   REQUIRE(learner.forget(10));
   CHECK_FALSE(learner.state().habit.looking);
+  // And where a better one takes its place.
+  config.recollections = 1;
+  config.patience = 0;
+  int replaced = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    AdaptiveLearner other(config, seed);
+    for (int i = 0; i < 100; ++i) {
+      const AdaptiveHabit before = other.state().habit;
+      rounds(other, 1);
+      const AdaptiveHabit after = other.state().habit;
+      if (!before.looking || after.cost >= before.cost) continue;
+      ++replaced;
+      CHECK_FALSE(after.looking);
+    }
+  }
+  CHECK(replaced > 0);
 }
 
 TEST_CASE("what was learned elsewhere, or in free steps, leaves the habit alone") {
