@@ -2,6 +2,24 @@
 #include "devlearn/version.hpp"
 #include "wrong_calls.hpp"
 
+namespace {
+
+// By pickle's protocols 0 and 1 an object would be made through pybind11's base class, which ends
+// the process: they go the way of 2.
+void pickle_by_every_protocol(py::module_& m) {
+  for (const auto& [name, value] : m.attr("__dict__").cast<py::dict>()) {
+    if (!PyType_Check(value.ptr()) || !py::hasattr(value, "_pybind11_conduit_v1_")) continue;
+    value.attr("__reduce_ex__") = py::cpp_function(
+        [](const py::object& self, int protocol) {
+          const py::object object = py::module_::import("builtins").attr("object");
+          return object.attr("__reduce_ex__")(self, std::max(protocol, 2));
+        },
+        py::name("__reduce_ex__"), py::is_method(value), py::arg("protocol"), "For pickle.");
+  }
+}
+
+}  // namespace
+
 PYBIND11_MODULE(_core, m) {
   m.doc() = "The C++ core of devlearn. Use it through the package `devlearn`.";
   m.attr("__version__") = devlearn::version();
@@ -24,5 +42,6 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_value_agents(m);
   devlearn::python::bind_trial(m);
   devlearn::python::bind_trial_snapshot(m);
+  pickle_by_every_protocol(m);
   devlearn::python::explain_wrong_calls(m);
 }

@@ -1100,7 +1100,7 @@ class AdaptiveLearner:
     def __setstate__(self, arg0: typing.Any) -> None: ...
     def begin_round(self) -> None:
         """
-        A round begins; an open decision is dropped.
+        A round begins, where its first step is made; an open decision is dropped.
         """
     def best(self, situation: typing.SupportsIndex) -> int | None:
         """
@@ -1125,7 +1125,7 @@ class AdaptiveLearner:
         """
     def end_round(self, arrived: bool) -> None:
         """
-        A round ends, at the goal or not. Raises InvalidValue where none has begun.
+        A round ends, at the goal or not; one without a step counts for nothing. Raises InvalidValue where none has begun.
         """
     def expected_loss(self, situation: typing.SupportsIndex) -> float | None:
         """

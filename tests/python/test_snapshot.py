@@ -27,6 +27,26 @@ def future(learner):
     return [record.situation.tobytes(), record.motion.tobytes(), record.smf.tobytes()]
 
 
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda trial: trial,
+        lambda trial: trial.learner,
+        lambda trial: trial.learner.explain(0),
+        lambda trial: devlearn.AdaptiveLearner(seed=1),
+        lambda trial: devlearn.agents.QLearning(seed=1),
+        lambda trial: devlearn.Random(1, "agent"),
+        lambda trial: trial.config,
+    ],
+)
+def test_what_can_be_pickled_can_by_every_protocol(make, protocol):
+    made = make(devlearn.Trial(devlearn.World.load("paper"), seed=5))
+    again = pickle.loads(pickle.dumps(made, protocol))
+    assert type(again) is type(made)
+    assert pickle.dumps(again) == pickle.dumps(made)
+
+
 @pytest.mark.parametrize("through", ["file", "bytes", "pickle", "deepcopy"])
 def test_a_learner_goes_on_equal_to_the_bit(learner, tmp_path, through):
     if through == "file":
