@@ -31,9 +31,9 @@ std::string kind_of(const py::dict& nested, const std::string& field, const py::
 py::object nested_from_dict(const std::string& quantity, const py::dict& types,
                             const py::handle& fields) {
   const py::dict rest = fields.attr("copy")();
-  py::object kind = py::str("");
-  if (rest.contains("kind") && types.size() > 1) kind = rest.attr("pop")("kind");
-  if (!types.contains(kind)) {
+  if (!rest.contains("kind") || types.size() == 1) return types[""].attr("from_dict")(rest);
+  const py::object kind = rest.attr("pop")("kind");
+  if (!py::isinstance<py::str>(kind) || py::len(kind) == 0 || !types.contains(kind)) {
     std::string known;
     for (const auto& [name, type] : types) {
       const std::string text = py::str(name);

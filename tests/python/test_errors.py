@@ -66,6 +66,13 @@ ERRORS = [
 ]
 
 
+@pytest.mark.parametrize("kind", ["", "paper", None, 1, ["adaptive"]])
+def test_a_learner_of_no_known_kind_is_refused_by_name(kind):
+    fields = {"learner": {"kind": kind}}
+    error = refused(lambda: devlearn.TrialConfig.from_dict(fields), "TrialConfig.learner.kind")
+    assert error.value == repr(kind)
+
+
 @pytest.mark.parametrize("error", ERRORS)
 def test_errors_survive_pickling_and_copying(error):
     error.add_note("noted") if hasattr(error, "add_note") else None
