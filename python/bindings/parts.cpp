@@ -38,8 +38,11 @@ struct PythonSituations {
   SituationId operator()(const Senses& senses) const {
     const Gil gil;
     const py::object given = (*callable)(senses_in_python(senses));
-    py::detail::make_caster<Whole<SituationTag>> id;
-    if (id.load(given, true)) return py::detail::cast_op<Whole<SituationTag>>(id).value;
+    try {
+      return given.cast<Whole<SituationTag>>().value;
+    } catch (const InvalidValue&) {
+    } catch (const py::cast_error&) {
+    }
     throw InvalidValue("situation by " + name_of_callable(*callable), shown(given),
                        SituationTag::allowed);
   }

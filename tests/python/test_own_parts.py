@@ -121,14 +121,15 @@ def test_what_is_no_sef_is_refused_and_the_trial_left_as_it_was(paper, value, sh
     assert trial.step().sef == 1.0
 
 
-@pytest.mark.parametrize("value", [-1, 2**63, 0.5, "1", None, True])
+@pytest.mark.parametrize("value", [-1, 2**63, 0.5, math.nan, "1", None, True])
 def test_what_is_no_situation_is_refused_and_the_trial_left_as_it_was(paper, value):
     given = [0]
     trial = Trial(paper, seed=1, situations=lambda senses: given[0])
     trial.run(10)
     pose = trial.pose
     given[0] = value
-    assert refused(trial.step).quantity.startswith("situation")
+    name = f"situation by {__name__}:test_what_is_no_situation"
+    assert refused(trial.step).quantity.startswith(name)
     assert trial.pose == pose
     given[0] = 3.0
     trial.run(2)
