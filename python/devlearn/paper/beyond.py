@@ -18,12 +18,12 @@ from .measures import Measures
 from .schedule import Schedule
 
 MOST_SEEDS = 10
-# The adaptive learner needs no free learning: it explores on its way.
-SCHEDULES = {
-    "paper": schedule.SECTION_VI,
-    "adaptive": schedule.SECTION_VI.replace(free=()),
-}
 _LATE = 20
+
+
+def schedules() -> dict[str, Schedule]:
+    """What is run, by preset. The adaptive learner needs no free learning: it explores as it goes."""
+    return {"paper": schedule.SECTION_VI, "adaptive": schedule.SECTION_VI.replace(free=())}
 
 
 def planned(worlds: Sequence[str], seeds: Sequence[int]) -> list[dict[str, Any]]:
@@ -37,7 +37,7 @@ def planned(worlds: Sequence[str], seeds: Sequence[int]) -> list[dict[str, Any]]
             "schedule": plan.to_dict(),
         }
         for name in worlds
-        for preset, plan in SCHEDULES.items()
+        for preset, plan in schedules().items()
         for seed in seeds
     ]
 
@@ -64,7 +64,9 @@ def by_world(
 ) -> dict[str, dict[str, list[Measures]]]:
     """Runs by world and preset, in the order in which they were planned."""
     found = iter(runs)
-    return {name: {preset: [next(found) for _ in seeds] for preset in SCHEDULES} for name in worlds}
+    return {
+        name: {preset: [next(found) for _ in seeds] for preset in schedules()} for name in worlds
+    }
 
 
 def shortest_of(worlds: Sequence[str]) -> dict[str, int]:
@@ -89,7 +91,7 @@ def draw(
     figure, axes = panels(-(-len(found) // columns), columns, width=9.6, height=4.8)
     for (name, by_preset), ax in zip(found.items(), axes):
         for (preset, runs), color, line in zip(by_preset.items(), (BLUE, VERMILLION), ("-", "--")):
-            plan = SCHEDULES[preset]
+            plan = schedules()[preset]
             steps = np.array([_rounds(run, plan.rounds, plan.step_limit) for run in runs])
             low, median, high = np.percentile(steps, [10, 50, 90], axis=0)
             rounds = np.arange(1, plan.rounds + 1)
@@ -115,7 +117,7 @@ def table(
 ) -> list[list[str]]:
     """A row a world: what each preset came to."""
     rows = [["world", "shortest path"]]
-    for preset in SCHEDULES:
+    for preset in schedules():
         rows[0] += [
             f"{preset}: last round / shortest", "settled, from round",
             f"failed after round {_LATE}", "steps in all",
@@ -123,7 +125,7 @@ def table(
     for name, by_preset in found.items():
         row = [name, str(shortest[name])]
         for preset, runs in by_preset.items():
-            plan = SCHEDULES[preset]
+            plan = schedules()[preset]
             last = [_rounds(run, plan.rounds, plan.step_limit)[-1] for run in runs]
             settled = [run["settled"] for run in runs if run["settled"] is not None]
             arrived = sum(step < plan.step_limit for step in last)
@@ -135,7 +137,7 @@ def table(
                 f"{np.median(last) / shortest[name]:.2f}" if 2 * arrived > len(runs) else "fails",
                 f"{len(settled)} of {len(runs)}"
                 + (f", {np.median(settled):.0f}" if settled else ""),
-                f"{late / (len(runs) * (plan.rounds - _LATE)):.1%}",
+                f"{late / max(1, len(runs) * (plan.rounds - _LATE)):.1%}",
                 f"{np.median([run['total'] for run in runs]) / 1e3:.0f} thousand",
             ]
         rows.append(row)

@@ -579,7 +579,7 @@ def test_reproduce_draws_every_figure_as_png_and_svg(reproduced):
     folder, _ = reproduced
     written = {path.stem for path in (folder / "figures").iterdir()}
     expected = {name for names in NAMES.values() for name in names}
-    expected |= {"rounds_over_seeds", "sigmas"}
+    expected |= {"beyond_presets", "rounds_over_seeds", "sigmas"}
     assert written >= expected
     assert all(re.fullmatch("fig08_episode_[abcd]", name) for name in written - expected)
     for name in written:
@@ -662,14 +662,16 @@ def test_reproducing_again_runs_nothing_again(reproduced, small, monkeypatch, ca
     def never(job):
         raise AssertionError("run again")
 
-    from devlearn.paper import figures
+    from devlearn.paper import beyond, figures
 
     monkeypatch.setattr(jobs, "execute", never)
+    monkeypatch.setattr(beyond, "execute", never)
     monkeypatch.setattr(figures, "FIGURES", {})  # they take most of the time
     line = ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(folder)]
     assert cli.main(line) == 0
     assert (folder / "runs.jsonl").read_bytes() == journal
-    assert len(journal.splitlines()) == 14  # 16 less the controls that both presets share
+    # 16 less the controls that both presets share; and both presets in every world.
+    assert len(journal.splitlines()) == 14 + 2 * len(devlearn.worlds())
     after = json.loads((folder / "numbers.json").read_text())
     assert after["claims"] == before["claims"]
     assert after["runs"] == before["runs"]
