@@ -22,7 +22,7 @@ _LATE = 20
 
 
 def schedules() -> dict[str, Schedule]:
-    """What is run, by preset. The adaptive learner needs no free learning: it explores as it goes."""
+    """What is run, by preset: the adaptive learner needs no free learning before."""
     return {"paper": schedule.SECTION_VI, "adaptive": schedule.SECTION_VI.replace(free=())}
 
 
