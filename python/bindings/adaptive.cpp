@@ -79,7 +79,9 @@ void bind_results(py::module_& m) {
                     "The one by which this round is to deviate from the habit here.")
       .def_readonly("habit", &E::habit, "The habit's here, where this round goes by habit.")
       .def_readonly("homeward", &E::homeward, "Whether this round goes home by what is known.")
-      .def_readonly("kind", &E::kind, "What the choice goes by, or went by: a Kind.")
+      .def_readonly(
+          "kind", &E::kind,
+          "What the choice goes by, or went by: a Kind; UNSTATED where a draw is to decide that.")
       .def_readonly("motion", &E::motion,
                     "What it was, where it was made; before, what it will be where there is "
                     "nothing to draw.")

@@ -1035,7 +1035,7 @@ class AdaptiveExplanation:
     @property
     def kind(self) -> Kind:
         """
-        What the choice goes by, or went by: a Kind.
+        What the choice goes by, or went by: a Kind; UNSTATED where a draw is to decide that.
         """
     @property
     def memory(self) -> AdaptiveMemory:

@@ -34,6 +34,15 @@ std::vector<double> probabilities(const AdaptiveMemory& memory, const std::vecto
   return probability;
 }
 
+// What a draw by values goes by, as far as that is sure.
+Kind kind_of_draw(const AdaptiveExplanation& why) {
+  bool tried = false, untried = false;
+  for (std::size_t m = 0; m < why.probability.size(); ++m) {
+    if (why.probability[m] > 0.0) (why.memory.times[m] > 0 ? tried : untried) = true;
+  }
+  return tried && untried ? Kind::kUnstated : tried ? Kind::kExploit : Kind::kExplore;
+}
+
 const char* name_of(Kind kind) {
   switch (kind) {
     case Kind::kExplore:
@@ -116,15 +125,13 @@ AdaptiveExplanation AdaptiveLearner::explain(SituationId situation, AllowedMotio
     choice = settled_choice(here, allowed);
   }
   if (!choice && !why.homeward && sure != why.probability.end()) {
-    choice = {static_cast<int>(sure - why.probability.begin()), Kind::kExploit};
-    if (why.memory.times[static_cast<std::size_t>(choice->motion)] == 0)
-      choice->kind = Kind::kExplore;
+    choice = {static_cast<int>(sure - why.probability.begin()), kind_of_draw(why)};
   }
   if (choice) {
     why.motion = choice->motion;
     why.kind = choice->kind;
-  } else if (!why.memory.unexplored.empty()) {
-    why.kind = Kind::kExplore;
+  } else {
+    why.kind = why.homeward ? Kind::kUnstated : kind_of_draw(why);
   }
   why.recollections = recollected_;
   return why;

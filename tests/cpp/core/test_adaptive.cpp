@@ -406,7 +406,7 @@ TEST_CASE("an explanation says what choose then does") {
   AdaptiveConfig config = four_motions();
   config.recollections = 1;  // so that much is left to deviations
   AdaptiveLearner learner(config, 12);
-  int held = 0, habit = 0, deviation = 0, valued = 0;
+  int held = 0, habit = 0, deviation = 0, valued = 0, unstated = 0;
   for (int round = 0; round < 200; ++round) {
     Corridor at;
     learner.begin_round();
@@ -414,10 +414,9 @@ TEST_CASE("an explanation says what choose then does") {
       const AdaptiveExplanation why = learner.explain(at.situation());
       const Choice choice = learner.choose(at.situation(), at.estimate());
       // At a round's first decision it is yet to be told whether it goes by habit.
-      if (at.place > 0 && why.motion >= 0) {
-        CHECK(choice.motion == why.motion);
-        CHECK(choice.kind == why.kind);
-      }
+      if (at.place > 0 && why.motion >= 0) CHECK(choice.motion == why.motion);
+      if (at.place > 0 && why.kind != Kind::kUnstated) CHECK(choice.kind == why.kind);
+      unstated += why.kind == Kind::kUnstated ? 1 : 0;
       held += why.held >= 0 ? 1 : 0;
       habit += why.kind == Kind::kHabit ? 1 : 0;
       deviation += choice.kind == Kind::kDeviation ? 1 : 0;
@@ -439,6 +438,19 @@ TEST_CASE("an explanation says what choose then does") {
   CHECK(habit > 0);
   CHECK(deviation > 0);
   CHECK(valued > 0);
+  CHECK(unstated < valued);
+}
+
+TEST_CASE("an explanation states no kind that a draw is to decide") {
+  AdaptiveLearner learner(four_motions(), 12);
+  learner.update(1, 0, 1.0, 0, 0.0, 10.0);  // better than what was not tried
+  learner.update(1, 1, 1.0, 0, 0.0, 10.0);
+  const AdaptiveExplanation tried = learner.explain(1);
+  CHECK(tried.motion == -1);
+  CHECK(tried.kind == Kind::kExploit);
+  CHECK(learner.explain(2).kind == Kind::kExplore);
+  learner.update(3, 0, 11.0, 0, 0.0, 10.0);  // as good as what was not tried
+  CHECK(learner.explain(3).kind == Kind::kUnstated);
 }
 
 TEST_CASE("the recollections of a decision are told, each with what it changed") {

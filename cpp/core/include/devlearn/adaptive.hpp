@@ -115,11 +115,12 @@ struct AdaptiveExplanation {
   std::vector<bool> allowed;        ///< N: whether each motion may be chosen
   std::vector<double> probability;  ///< N: of each to be chosen by values
   int held = -1;                    ///< the motion that is held here
-  int deviation = -1;          ///< the one by which this round is to deviate from the habit here
-  int habit = -1;              ///< the habit's here, where this round goes by habit
-  bool homeward = false;       ///< whether this round goes home by what is known
-  Kind kind = Kind::kExploit;  ///< what the choice goes by, or went by
-  int motion = -1;             ///< what it was, where it was made
+  int deviation = -1;     ///< the one by which this round is to deviate from the habit here
+  int habit = -1;         ///< the habit's here, where this round goes by habit
+  bool homeward = false;  ///< whether this round goes home by what is known
+  /// What the choice goes by, or went by; unstated where a draw is to decide that.
+  Kind kind = Kind::kExploit;
+  int motion = -1;                          ///< what it was, where it was made
   std::vector<Recollection> recollections;  ///< what those of the last decision changed
 };
 /// A table for people, a line a motion.
