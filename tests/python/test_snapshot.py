@@ -8,6 +8,7 @@ import devlearn
 import numpy as np
 import pytest
 from conftest import differences, refused
+from devlearn import agents
 from devlearn.record import POSE_COLUMNS, STEP_COLUMNS
 from safetensors import safe_open
 from safetensors.numpy import load_file
@@ -35,7 +36,7 @@ def future(learner):
         lambda trial: trial.learner,
         lambda trial: trial.learner.explain(0),
         lambda trial: devlearn.AdaptiveLearner(seed=1),
-        lambda trial: devlearn.agents.QLearning(seed=1),
+        lambda trial: agents.QLearning(seed=1),
         lambda trial: devlearn.Random(1, "agent"),
         lambda trial: trial.config,
     ],
