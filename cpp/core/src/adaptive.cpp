@@ -227,9 +227,8 @@ Choice AdaptiveLearner::choose(SituationId situation, double estimate, AllowedMo
       return {decision_.motion, Kind::kHeld};
     }
     // It cannot be held, or the robot was put elsewhere.
-    Development development;
     close_decision(static_cast<Number>(decision_.situation),
-                   same ? estimate : decision_.last_estimate, true, development);
+                   same ? estimate : decision_.last_estimate, true);
   }
   allow(here, allowed);
   if (in_round() && path_.empty() && round_.start != static_cast<int>(here)) {
@@ -386,19 +385,14 @@ Development AdaptiveLearner::learn(double cost, SituationId next, double next_es
   round_.cost += cost;
   round_.arrived = arrived;
 
-  Development development;
-  development.situation = ids_.id(here);
-  development.motion = decision_.motion;
   const AdaptiveDecision made = decision_;
+  Event event = Event::kNothing;
   if (there != here || interrupted || decision_.steps >= config_.hold_limit) {
-    close_decision(there, next_estimate, interrupted, development);
+    event = close_decision(there, next_estimate, interrupted);
   }
   watch_habit(made, interrupted);
   if (config_.sweep_limit > 0) go_on_sweeping();
-  development.explored_count = explored_count_;
-  development.effective_count = effective_count_;
-  development.value = next_estimate + loss_at(there);
-  return development;
+  return development(here, made.motion, event, next_estimate + loss_at(there));
 }
 
 // Its first step was made.
@@ -414,29 +408,33 @@ void AdaptiveLearner::begin_decision() {
   }
 }
 
-void AdaptiveLearner::close_decision(Number next, double estimate, bool interrupted,
-                                     Development& development) {
+Event AdaptiveLearner::close_decision(Number next, double estimate, bool interrupted) {
   const auto here = static_cast<Number>(decision_.situation);
   const Number made = mapping(here, decision_.motion);
   const bool on_trial = round_.curious && stale(made);
   if (on_trial && !interrupted) forget_outcomes(made);  // what was in the way is gone
   const double loss = decision_.spent + (estimate - decision_.estimate);
-  development.event = add_outcome(made, next, loss, interrupted);
+  const Event event = add_outcome(made, next, loss, interrupted);
   if (interrupted && in_round()) path_[at_[here].decided].interrupted = true;
   decision_ = {};
   if (on_trial) {
     hope_.begin(at_.size(), kHopePassesOnTheWay);
     if (config_.sweep_limit == 0) sweep_hope(kEveryMapping);
   }
+  return event;
+}
+
+// What is told of an outcome, after it.
+Development AdaptiveLearner::development(Number situation, int motion, Event event,
+                                         double value) const noexcept {
+  return {ids_.id(situation), motion, event, 0, explored_count_, effective_count_, value};
 }
 
 void AdaptiveLearner::cancel() {
   if (!decision_.waiting) refuse_outcome("AdaptiveLearner.cancel");
   if (decision_.steps > 0) {
-    Development development;
     outcomes_.make_room();
-    close_decision(static_cast<Number>(decision_.situation), decision_.last_estimate, true,
-                   development);
+    close_decision(static_cast<Number>(decision_.situation), decision_.last_estimate, true);
   }
   decision_ = {};
 }
@@ -457,14 +455,8 @@ Development AdaptiveLearner::update(SituationId situation, int motion, double co
   const Number here = meet(situation, estimate.value_or(0.0));
   const Number there = next_estimate == 0.0 ? kGoal : meet(next, next_estimate);
   const double loss = cost + (next_estimate - estimate.value_or(at_[here].first_estimate));
-  Development development;
-  development.situation = situation;
-  development.motion = motion;
-  development.event = add_outcome(mapping(here, motion), there, loss, false);
-  development.explored_count = explored_count_;
-  development.effective_count = effective_count_;
-  development.value = next_estimate + loss_at(there);
-  return development;
+  const Event event = add_outcome(mapping(here, motion), there, loss, false);
+  return development(here, motion, event, next_estimate + loss_at(there));
 }
 
 // Of a mapping; its motion is untried again.
@@ -609,11 +601,9 @@ void AdaptiveLearner::reconsider_trials() {
 
 // The world is no longer as it was, or what the habit stands on was forgotten.
 void AdaptiveLearner::drop_habit() {
-  habit_.cost = kInfinity;
-  habit_.start = -1;
-  habit_.since = 0;
-  habit_.since_look = 0;
-  habit_.looking = false;
+  const double least = habit_.least;
+  habit_ = {};
+  habit_.least = least;
   forget_trials();
   habit_path_.clear();
 }
@@ -633,6 +623,19 @@ void AdaptiveLearner::watch_habit(const AdaptiveDecision& made, bool interrupted
 }
 
 // --- sweeps over all that is known ---------------------------------------------------------------
+
+// A situation's value becomes the least loss of what is allowed there; by how much it changed.
+template <typename Loss>
+double AdaptiveLearner::revalue(std::vector<double>& values, Number situation, const Loss& loss) {
+  double least = kInfinity;
+  const Number first = mapping(situation, 0);
+  for (Number each = first; each < first + motions(); ++each) {
+    if (allowed_[each] != 0) least = std::min(least, loss(each));
+  }
+  const double before = values[situation];
+  values[situation] = least;
+  return least == before ? 0.0 : std::abs(least - before);
+}
 
 void AdaptiveLearner::go_on_sweeping() {
   const auto limit = static_cast<std::size_t>(config_.sweep_limit);
@@ -683,15 +686,7 @@ double AdaptiveLearner::loss_home(Number mapping) const noexcept {
 
 void AdaptiveLearner::sweep_home(std::size_t mappings) {
   go_on(home_, mappings, kHomeChange, [this](Number situation, detail::Sweep&) {
-    double least = kInfinity;
-    for (int m = 0; m < config_.motion_count; ++m) {
-      const Number each = mapping(situation, m);
-      if (allowed_[each] != 0) least = std::min(least, loss_home(each));
-    }
-    double& known = known_[situation];
-    const double change = least == known ? 0.0 : std::abs(least - known);
-    known = least;
-    return change;
+    return revalue(known_, situation, [this](Number each) { return loss_home(each); });
   });
 }
 
@@ -721,16 +716,10 @@ double AdaptiveLearner::hope(Number mapping) const noexcept {
 
 void AdaptiveLearner::sweep_hope(std::size_t mappings) {
   go_on(hope_, mappings, kHopeChange, [this](Number situation, detail::Sweep& sweep) {
-    double least = kInfinity;
     for (int m = 0; m < config_.motion_count; ++m) {
-      const Number each = mapping(situation, m);
-      sweep.found = sweep.found || stale(each);
-      if (allowed_[each] != 0) least = std::min(least, hope(each));
+      sweep.found = sweep.found || stale(mapping(situation, m));
     }
-    double& hoped = hoped_[situation];
-    const double change = std::abs(least - hoped);
-    hoped = least;
-    return change;
+    return revalue(hoped_, situation, [this](Number each) { return hope(each); });
   });
 }
 

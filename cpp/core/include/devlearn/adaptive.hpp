@@ -462,7 +462,8 @@ class AdaptiveLearner {
   int least_of(AllowedMotions allowed, const Loss& loss) const noexcept;
   void remember_choice(Number here, AllowedMotions allowed);
   void begin_decision();
-  void close_decision(Number next, double estimate, bool interrupted, Development& development);
+  Event close_decision(Number next, double estimate, bool interrupted);
+  Development development(Number situation, int motion, Event event, double value) const noexcept;
 
   // Rounds and the habit
   bool decided(Number here) const noexcept { return on(path_, at_[here].decided, here); }
@@ -491,6 +492,8 @@ class AdaptiveLearner {
   // Sweeps over all that is known
   template <typename Visit>
   void go_on(detail::Sweep& sweep, std::size_t mappings, double small, const Visit& visit);
+  template <typename Loss>
+  double revalue(std::vector<double>& values, Number situation, const Loss& loss);
   void go_on_sweeping();
   void lower_optimism();
   void sweep_falling(std::size_t mappings);
