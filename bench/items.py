@@ -76,6 +76,8 @@ ITEMS = [
     Item("2 closed loop", "whole experiment / floor", "<=", 4.0, ratio("trial/experiment", FLOOR)),
     Item("2 closed loop", "600 rounds of the adaptive learner / of the paper's", "<=", 2.5,
          ratio("trial/600_rounds_adaptive", "trial/600_rounds")),
+    Item("2 closed loop", "rounds alone, with a tally / without", "<=", 1.06,
+         ratio("trial/rounds_only_tally", "trial/rounds_only")),
     Item("3 echoes", "five sonars recorded / (raycasts + closed loop)", "<=", 1.5, with_echoes),
     Item("4 growth", "whether a step is free: 8000 / 8 obstacles, arena kept", "<=", 1.5,
          ratio("clearance/free_step_8000", "clearance/free_step")),

@@ -37,6 +37,31 @@ const auto* const echoing = add("trial/closed_loop_echoes", [](benchmark::State&
   free_learnings(state, paper(), true);
 });
 
+// Free learnings of which the rounds alone are recorded; with a tally the steps are counted, too.
+void rounds_alone(benchmark::State& state, bool with_tally) {
+  const World world = paper();
+  for (auto _ : state) {
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      state.PauseTiming();
+      Trial trial(world, {}, seed);
+      state.ResumeTiming();
+      Record record;
+      Tally tally;
+      RunOptions options;
+      options.rounds_only = true;
+      if (with_tally) options.tally = &tally;
+      trial.free_learning(record, kSteps, options);
+    }
+  }
+  per_step(state, kSeeds * kSteps);
+}
+
+const auto* const rounds_only =
+    add("trial/rounds_only", [](benchmark::State& state) { rounds_alone(state, false); });
+
+const auto* const rounds_only_tally =
+    add("trial/rounds_only_tally", [](benchmark::State& state) { rounds_alone(state, true); });
+
 // The steps of a free learning that touched nothing, with Box2D driving at 60 Hz in a world that
 // persists. The rest of the loop is devlearn's.
 const auto* const box2d = add("box2d/closed_loop_60hz", [](benchmark::State& state) {

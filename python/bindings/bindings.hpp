@@ -39,6 +39,7 @@ void bind_explanation(py::module_& m);
 void bind_world(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_record(py::module_& m);
+void bind_tally(py::module_& m);
 void bind_agents(py::module_& m);
 void bind_value_agents(py::module_& m);
 void bind_trial(py::module_& m);
@@ -81,11 +82,12 @@ class Mask {
   std::optional<py::array_t<bool>> allowed_;
 };
 
-/// devlearn.Record, built on the Python side.
+/// devlearn.Record, built on the Python side; record_of looks at one that is given.
 class RecordObject : public py::object {
  public:
   using py::object::object;
   explicit RecordObject(py::object record) : py::object(std::move(record)) {}
+  static bool check_(py::handle) { return true; }
 };
 
 /// devlearn.LearnerMemory, or what has its attributes.

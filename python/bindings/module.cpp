@@ -38,6 +38,7 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_world(m);
   devlearn::python::bind_robot(m);
   devlearn::python::bind_record(m);
+  devlearn::python::bind_tally(m);
   devlearn::python::bind_agents(m);
   devlearn::python::bind_value_agents(m);
   devlearn::python::bind_trial(m);

@@ -195,6 +195,16 @@ InHand::InHand(const AdaptiveLearner& learner, For what) : InHand() {
   take(&learner, "AdaptiveLearner", what);
 }
 
+InHand::InHand(const Tally* tally) : InHand() {
+  if (tally == nullptr) return;
+  // Where an agent runs another trial, the two would count into each other's rounds.
+  const bool here = std::any_of(in_hand().begin(), in_hand().end(), [&](const Entry& entry) {
+    return entry.object == tally && !is_elsewhere(entry);
+  });
+  if (here) throw InvalidValue("Tally", "one that a run under way counts into", "another, or none");
+  take(tally, "Tally", For::kRunning);
+}
+
 void InHand::take(const void* object, const char* name, For what) {
   leave_if_late();
   require_free(object, name, what);

@@ -17,6 +17,7 @@ namespace py = pybind11;
 
 namespace devlearn {
 class Agent;
+class Tally;
 class Trial;
 }  // namespace devlearn
 
@@ -76,15 +77,17 @@ class Watch {
   std::exception_ptr raised_;
 };
 
-/// Marks a trial, its agent, or a learner, while it lives, as in the hands of this thread: of a run
-/// that changes it, or of one that reads it. A run is refused what another thread has in hand, and
-/// waits for who only reads it. Made and ended with the GIL held.
+/// Marks a trial, its agent, a learner, or a tally, while it lives, as in the hands of this thread:
+/// of a run that changes it, or of one that reads it. A run is refused what another thread has in
+/// hand, and waits for who only reads it. Made and ended with the GIL held.
 class InHand {
  public:
   enum class For : bool { kReading, kRunning };
   InHand(const Trial& trial, For what);
   InHand(const Learner& learner, For what);
   InHand(const AdaptiveLearner& learner, For what);
+  /// Of a run, which is refused one that any other run counts into; null: of nothing.
+  explicit InHand(const Tally* tally);
   ~InHand();
   InHand(const InHand&) = delete;
   InHand& operator=(const InHand&) = delete;

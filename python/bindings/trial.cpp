@@ -51,6 +51,7 @@ using Told = py::typing::Callable<py::object(std::int64_t, std::int64_t)>;
 /// How Python asks for a phase.
 struct Asked {
   bool echoes, rounds_only;
+  Tally* tally;
   std::optional<EventObject> stop;
   std::optional<Told> progress;
 };
@@ -69,7 +70,7 @@ template <typename Phase>
 RecordObject run_phase(py::object& self, std::int64_t total, bool of_rounds, const Asked& asked,
                        const Phase& phase) {
   auto& trial = self.cast<Trial&>();
-  const InHand in_hand(trial, InHand::For::kRunning);
+  const InHand in_hand(trial, InHand::For::kRunning), tally_in_hand(asked.tally);
   Record record;
   auto told = Clock::now();
   bool stopped = false;
@@ -83,7 +84,8 @@ RecordObject run_phase(py::object& self, std::int64_t total, bool of_rounds, con
   try {
     {
       const NoGil no_gil;
-      phase(trial, record, RunOptions{asked.echoes, std::ref(watch), asked.rounds_only});
+      phase(trial, record,
+            RunOptions{asked.echoes, std::ref(watch), asked.rounds_only, asked.tally});
     }
     watch.rethrow();
     if (asked.progress && !stopped) (*asked.progress)(total, total);
@@ -101,16 +103,19 @@ void def_phase(py::class_<Trial>& cls, const char* name, Phase phase, bool of_ro
   cls.def(
       name,
       [phase, of_rounds](py::object& self, Counts... counts, bool echoes, bool rounds_only,
-                         std::optional<EventObject> stop, std::optional<Told> progress) {
+                         std::optional<Tally*> tally, std::optional<EventObject> stop,
+                         std::optional<Told> progress) {
         const std::int64_t all[] = {counts.value...};
-        return run_phase(self, all[0], of_rounds,
-                         {echoes, rounds_only, std::move(stop), std::move(progress)},
-                         [&](Trial& trial, Record& record, const RunOptions& options) {
-                           (trial.*phase)(record, counts.value..., options);
-                         });
+        return run_phase(
+            self, all[0], of_rounds,
+            {echoes, rounds_only, tally.value_or(nullptr), std::move(stop), std::move(progress)},
+            [&](Trial& trial, Record& record, const RunOptions& options) {
+              (trial.*phase)(record, counts.value..., options);
+            });
       },
       named..., py::kw_only(), py::arg("echoes") = false, py::arg("rounds_only") = false,
-      py::arg("stop") = py::none(), py::arg("progress") = py::none(), doc);
+      py::arg("tally") = py::none(), py::arg("stop") = py::none(), py::arg("progress") = py::none(),
+      doc);
 }
 
 /// What Python reads of a trial that no other thread runs.
@@ -186,8 +191,11 @@ void bind_trial(py::module_& m) {
       "`steps` steps from where the robot is, in the present round.\n\n"
       "All phases take the same options. `echoes` records the sonars, too. With `rounds_only` the\n"
       "record holds `rounds` and no steps or poses, and memory does not grow with steps; not\n"
-      "together with echoes. `stop`, a threading.Event or what has its is_set(), ends the phase\n"
-      "within 50 ms of being set, from another thread too; what is finished is returned as ever.\n"
+      "together with echoes. The steps are counted into `tally`, too, the finished ones also "
+      "where\n"
+      "the phase is not. `stop`, a threading.Event or what has its is_set(), ends the phase "
+      "within\n"
+      "50 ms of being set, from another thread too; what is finished is returned as ever.\n"
       "`progress` is called as progress(done, total) ten times a second at most, in steps (in\n"
       "rounds by path_learning), and once at the end; what it raises ends the phase as Ctrl-C "
       "does.",

@@ -54,6 +54,7 @@ __all__: list[str] = [
     "SituationMemory",
     "StateEvaluation",
     "Step",
+    "Tally",
     "Trial",
     "TrialConfig",
     "World",
@@ -1732,6 +1733,58 @@ class Step:
         After the step: cost to go as the agent expects it; NaN: it does not say.
         """
 
+class Tally:
+    """
+    What a run came to, counted as its steps pass, where no record is kept of them.
+
+    A trial's phases count into the one that they are given as `tally`, whatever their
+    record holds; memory does not grow with steps. It is of one trial. ``rounds`` is a
+    structured array, an entry a round, of
+
+    =======================  =======  =================================================================================
+    field                    dtype    meaning
+    =======================  =======  =================================================================================
+    ``round``                int32    its number in the trial, from 1
+    ``steps``                int64    steps of it
+    ``arrived``              bool     whether d_g <= goal_radius after one, or before the first in path learning
+    ``first_arrival``        int64    which of the steps, from 1, was the first after which it was so; 0: none
+    ``touches``              int64    steps that collided
+    ``cost``                 float64  of all steps; NaN where that of one is not known
+    ``path``                 uint64   fingerprint of the motions: equal motions, equal value
+    ``explored``             int64    steps of kind explore
+    ``known_ineffective``    int64    steps of a mapping that had smf_used < 0 when first executed, but for that one
+    ``ineffective``          int64    steps with smf_used < 0
+    ``updates``              int64    events extension, orientation and abandonment
+    ``ineffective_updates``  int64    those with smf_used < 0
+    ``mappings``             int64    different mappings executed by the end of the round
+    ``explored_count``       int64    NUM_RM after the last step by then
+    ``effective_count``      int64    NUM_M after the last step by then
+    =======================  =======  =================================================================================
+
+    A mapping is a situation and a motion executed in it. A round that goes on in another
+    call is one entry, and each of its fields as if it had never been stopped.
+    """
+    @staticmethod
+    def of(record: devlearn.record.Record) -> Tally:
+        """
+        That of a Record's steps, equal to what is counted as they pass. Raises InvalidValue for a record of rounds only.
+        """
+    def __init__(self) -> None:
+        """
+        One that holds nothing yet.
+        """
+    def __repr__(self) -> str: ...
+    @property
+    def rounds(self) -> numpy.ndarray:
+        """
+        A copy of what each round came to, a structured array.
+        """
+    @property
+    def steps(self) -> int:
+        """
+        How many were counted.
+        """
+
 class Observation:
     """
     What an agent knows when it chooses.
@@ -2883,6 +2936,7 @@ class Trial:
         *,
         echoes: bool = False,
         rounds_only: bool = False,
+        tally: Tally | None = None,
         stop: threading.Event | None = None,
         progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
     ) -> devlearn.record.Record:
@@ -2895,6 +2949,7 @@ class Trial:
         *,
         echoes: bool = False,
         rounds_only: bool = False,
+        tally: Tally | None = None,
         stop: threading.Event | None = None,
         progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
     ) -> devlearn.record.Record:
@@ -2908,6 +2963,7 @@ class Trial:
         *,
         echoes: bool = False,
         rounds_only: bool = False,
+        tally: Tally | None = None,
         stop: threading.Event | None = None,
         progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
     ) -> devlearn.record.Record:
@@ -2929,6 +2985,7 @@ class Trial:
         *,
         echoes: bool = False,
         rounds_only: bool = False,
+        tally: Tally | None = None,
         stop: threading.Event | None = None,
         progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
     ) -> devlearn.record.Record:
@@ -2937,8 +2994,9 @@ class Trial:
 
         All phases take the same options. `echoes` records the sonars, too. With `rounds_only` the
         record holds `rounds` and no steps or poses, and memory does not grow with steps; not
-        together with echoes. `stop`, a threading.Event or what has its is_set(), ends the phase
-        within 50 ms of being set, from another thread too; what is finished is returned as ever.
+        together with echoes. The steps are counted into `tally`, too, the finished ones also where
+        the phase is not. `stop`, a threading.Event or what has its is_set(), ends the phase within
+        50 ms of being set, from another thread too; what is finished is returned as ever.
         `progress` is called as progress(done, total) ten times a second at most, in steps (in
         rounds by path_learning), and once at the end; what it raises ends the phase as Ctrl-C does.
         """

@@ -125,5 +125,6 @@ def test_a_shape_that_cannot_be_is_refused_where_it_is_made(make, says):
 def test_every_class_of_the_module_is_among_these():
     classes = {n for n, c in vars(_core).items() if isinstance(c, type) and not n.startswith("_")}
     others = {"Kind", "Event", "Learner", "Trial", "RandomAgent", "ShortestPath", "SituationMemory"}
-    others |= {"AdaptiveLearner", "ShortestPathAgent", *(agent.__name__ for agent in VALUE_AGENTS)}
+    others |= {"AdaptiveLearner", "ShortestPathAgent", "Tally"}
+    others |= {*(agent.__name__ for agent in VALUE_AGENTS)}
     assert classes <= {*THINGS, *others}

@@ -417,15 +417,18 @@ bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
   } else if (record.rounds.empty() || record.rounds.back().round != round_) {
     record.rounds.push_back({round_, 0, false});
   }
+  if (options.tally != nullptr) options.tally->begin_round(round_, pose());
   for (std::int64_t i = 0;; ++i) {
     const bool ended = until_arrival && arrived() && steps > 0;
     if (ended) {
       record.rounds.back().arrived = true;
+      if (options.tally != nullptr) options.tally->arrive();
       close_round(true);
     }
     if (options.interrupt && i % kStepsBetweenInterrupts == 0 && options.interrupt()) return false;
     if (ended || i == steps) return true;
     const Step step = tick();
+    if (options.tally != nullptr) options.tally->count(step);
     if (options.rounds_only) {
       record.count(step);
       continue;

@@ -15,6 +15,7 @@
 #include "devlearn/record.hpp"
 #include "devlearn/robot.hpp"
 #include "devlearn/situation.hpp"
+#include "devlearn/tally.hpp"
 #include "devlearn/world.hpp"
 
 namespace devlearn {
@@ -113,6 +114,8 @@ struct RunOptions {
   /// Whether nothing but Record::rounds is recorded, so that memory does not grow with steps; not
   /// together with echoes.
   bool rounds_only = false;
+  /// Where the steps are counted, beside the record; null: nowhere.
+  Tally* tally = nullptr;
 };
 
 /// The closed loop: world -> sense -> situation -> choice -> motion -> evaluation -> development

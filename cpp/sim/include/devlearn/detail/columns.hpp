@@ -98,6 +98,19 @@ constexpr Column<Record, T, Row, Member, Range> column(const char* name,
   return {name, values, of, range, doc};
 }
 
+/// One field of rows that are kept whole.
+template <typename Row, typename T>
+struct RowField {
+  const char* name;
+  T Row::*of;
+  const char* doc;  ///< without a full stop
+};
+
+template <typename Row, typename T>
+constexpr RowField<Row, T> row_field(const char* name, T Row::*of, const char* doc) {
+  return {name, of, doc};
+}
+
 /// visit(column) for each of them.
 template <typename Columns, typename Visit>
 void each_column(const Columns& columns, const Visit& visit) {
