@@ -1,56 +1,100 @@
-"""Whole experiments of the paper over one and two workers: prints runs a second, as JSON.
+"""Whole experiments of the paper as a sweep: runs a second, and what the sweep costs, as JSON.
 
-many_runs.py SECONDS: how long the faster of the two passes shall take at least
+many_runs.py SECONDS    how long each of the passes shall take at least
+many_runs.py --loop FIRST LAST   runs of these seeds, one after the other: a process by itself
 """
 
 from __future__ import annotations
 
 import json
+import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from devlearn import World
-from devlearn.experiments.runs import Journal, run_all
-from devlearn.paper.jobs import execute, job
-from devlearn.paper.schedule import preset
+import devlearn
+from devlearn.experiments import job, spec
+from devlearn.experiments.store import Store
 
 
-def began(job: Mapping[str, Any]) -> dict[str, Any]:
-    """When a worker gets to its first job, by the clock that all processes share."""
-    return {"at": time.monotonic()}
+class Began:
+    """A measure: when a worker gets to its first run, by the clock that all processes share."""
+
+    @staticmethod
+    def at(run: Any) -> float:
+        """Seconds."""
+        return time.monotonic()
 
 
-def timed(function: Any, jobs: list[dict[str, Any]], workers: int) -> tuple[float, Any]:
-    """Seconds that the jobs take over so many workers, start and end included; and what came."""
-    with tempfile.TemporaryDirectory() as folder:
-        journal = Journal(Path(folder) / "runs.jsonl")
-        start = time.monotonic()
-        results = run_all(function, jobs, journal, workers=workers)
-        taken = time.monotonic() - start
-        journal.close()
-    return taken, results
+def asked(first: int, last: int, **more: Any) -> dict[str, Any]:
+    """So many whole experiments of the paper."""
+    return {"worlds": ["paper"], "agents": ["paper"], "seeds": f"{first}-{last}", **more}
+
+
+def swept(count: int, workers: int, **more: Any) -> tuple[float, Any]:
+    """Seconds of a sweep over so many workers, start and end included; its runs as a table."""
+    folder = tempfile.TemporaryDirectory()
+    start = time.monotonic()
+    results = devlearn.sweep(
+        asked(1, count, **more), Path(folder.name) / "runs.sqlite", workers=workers, progress=False
+    )
+    taken = time.monotonic() - start
+    frame = results.to_pandas()
+    folder.cleanup()
+    return taken, frame
+
+
+def by_themselves(count: int) -> float:
+    """Seconds of two independent processes that do the same loop, without store or master."""
+    half = count // 2
+    start = time.monotonic()
+    processes = [
+        subprocess.Popen([sys.executable, __file__, "--loop", str(first), str(last)])
+        for first, last in ((1, half), (half + 1, count))
+    ]
+    for process in processes:
+        if process.wait():
+            sys.exit("many_runs: a process failed")
+    return time.monotonic() - start
+
+
+def store_seconds() -> float:
+    """Seconds that the store takes for a run."""
+    whole = spec.read(asked(1, 500))
+    jobs = [*whole.jobs()]
+    row = job.execute(jobs[0])
+    with tempfile.TemporaryDirectory() as folder, Store(Path(folder) / "r.sqlite", whole) as store:
+        start = time.process_time()
+        for one in jobs:
+            store.add([(one, row)])
+        return (time.process_time() - start) / len(jobs)
 
 
 def main() -> None:
     """Measures."""
+    if sys.argv[1] == "--loop":
+        for one in spec.read(asked(int(sys.argv[2]), int(sys.argv[3]))).jobs():
+            job.execute(one)
+        return
     seconds = float(sys.argv[1])
+    _, frame = swept(8, 1)
+    each = frame["run_seconds"].median()
     start = time.monotonic()
-    _, starts = timed(began, [{"n": n} for n in range(2)], 2)
-    start_up = max(result["at"] for result in starts) - start
-
-    world, config = World.load("paper"), preset("paper")
-    jobs = [job(world, config, seed) for seed in range(1, 5)]
-    one = timed(execute, jobs, 1)[0] / len(jobs)
-    count = max(4, 2 * int(1.1 * seconds / one))
-    jobs = [job(world, config, seed) for seed in range(1, count + 1)]
-    rates = {
-        f"runs/per_second_{workers}": count / timed(execute, jobs, workers)[0] for workers in (2, 1)
-    }
-    print(json.dumps({"runs/start_up": start_up, **rates}))
+    _, starts = swept(2, 2, rounds=1, free=[], measures=["many_runs:Began.at"])
+    count = max(4, 2 * int(1.1 * seconds / each))
+    rates = {f"runs/per_second_{workers}": count / swept(count, workers)[0] for workers in (2, 1)}
+    print(
+        json.dumps(
+            {
+                "runs/start_up": starts["many_runs:Began.at"].max() - start,
+                **rates,
+                "runs/per_second_of_two_processes": count / by_themselves(count),
+                "runs/store_share": store_seconds() / each,
+            }
+        )
+    )
 
 
 if __name__ == "__main__":

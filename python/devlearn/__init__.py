@@ -59,6 +59,8 @@ if TYPE_CHECKING:
     from ._types import Choice, Development, LearnerMemory, Pose, Senses
     from ._worlds import worlds
     from .errors import FileError, InvalidValue, WrongType
+    from .experiments.store import Results
+    from .experiments.sweep import sweep
     from .record import Record
 
 __all__ = [
@@ -88,6 +90,7 @@ __all__ = [
     "Recollection",
     "Record",
     "Rectangle",
+    "Results",
     "Robot",
     "RobotDef",
     "ShortestPath",
@@ -106,6 +109,7 @@ __all__ = [
     "exponential",
     "may_reach_target",
     "shortest_path",
+    "sweep",
     "worlds",
     "wrapped_heading",
 ]
@@ -114,6 +118,11 @@ if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
         # Each name when it is first asked for (PEP 562): --help should not wait for them.
+        if name in ("Results", "sweep"):  # which need more than numpy
+            from .experiments import store, sweep
+
+            globals()[name] = getattr(store if name == "Results" else sweep, name)
+            return globals()[name]
         if name in __all__:
             from . import _core, _types, _worlds, record
 

@@ -35,11 +35,21 @@ LOCK = ".devlearn-lock"
 def owned_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
     """The folder, made where it is missing, for this process alone while the context lasts.
 
-    The lock is the system's and ends with its process, however that ends. Raises FileError, saying
-    who has it, where another process does.
+    Raises FileError, saying who has it, where another process does.
     """
     folder = made_folder(path)
-    lock = folder / LOCK
+    allowed = "a folder that nobody else writes to: wait for it, or choose another --output"
+    with locked(folder / LOCK, str(folder), allowed):
+        yield folder
+
+
+@contextmanager
+def locked(lock: Path, owned: str, allowed: str) -> Iterator[None]:
+    """For this process alone while the context lasts: what the lock, a file, stands for.
+
+    The lock is the system's and ends with its process, however that ends. Raises FileError of
+    ``owned``, saying who has it, where another process does.
+    """
     while True:
         try:
             held = os.open(lock, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
@@ -50,10 +60,7 @@ def owned_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
         except BlockingIOError as error:
             owner = os.pread(held, 200, 0).decode(errors="replace") or "another process"
             os.close(held)
-            raise FileError(
-                str(folder), "", f"in use by {owner}",
-                "a folder that nobody else writes to: wait for it, or choose another --output",
-            ) from error  # fmt: skip
+            raise FileError(owned, "", f"in use by {owner}", allowed) from error
         except OSError:  # a file system without locks: as good as it can be had there
             break
         # Whoever had it may have removed the file between our opening and our locking it.
@@ -64,7 +71,7 @@ def owned_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
         since = time.strftime("%Y-%m-%d %H:%M:%S")
         os.truncate(held, 0)
         os.write(held, f"process {os.getpid()} on {socket.gethostname()} since {since}".encode())
-        yield folder
+        yield
     finally:
         lock.unlink(missing_ok=True)
         os.close(held)
@@ -77,10 +84,17 @@ def _is_same_file(held: int, path: Path) -> bool:
         return False
 
 
-def code_fingerprint() -> str:
-    """A hash of all code that a result depends on."""
-    digest = hashlib.sha256()
+def code_version() -> str:
+    """A hash of what results depend on: the same wherever this version of devlearn is installed.
+
+    Compiled code differs from machine to machine, and is known by its commit; where it was built
+    from changed sources, by itself.
+    """
     package = Path(__file__).parent
-    for file in [Path(_core.__file__), *sorted(package.rglob("*.py"))]:
+    files = sorted(package.rglob("*.py"), key=lambda file: file.relative_to(package).parts)
+    if _core.commit == "unknown" or _core.commit.endswith("-dirty"):
+        files.append(Path(_core.__file__))
+    digest = hashlib.sha256(f"{_core.__version__} {_core.commit}".encode())
+    for file in files:
         digest.update(file.read_bytes())
-    return digest.hexdigest()
+    return digest.hexdigest()[:16]

@@ -70,10 +70,11 @@ class MissingExtra(ImportError):
         import sys
         from importlib.metadata import requires  # which takes 25 ms
 
+        of_extra = f'extra == "{extra}"'
         needed = [
-            requirement.split(";")[0].strip()
-            for requirement in requires("devlearn") or ()
-            if requirement.replace("'", '"').endswith(f'extra == "{extra}"')
+            requirement.replace(of_extra, "").removesuffix(" and ").rstrip("; ")
+            for requirement in (text.replace("'", '"') for text in requires("devlearn") or ())
+            if requirement.endswith(of_extra)
         ]
         command = shlex.join([sys.executable, "-m", "pip", "install", *(needed or [package])])
         super().__init__(

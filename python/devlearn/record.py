@@ -11,6 +11,7 @@ import os
 import stat
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cached_property
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
@@ -77,6 +78,7 @@ class Record:  # noqa: D101 - made of the columns
     heading: npt.NDArray[np.float64]
     rounds: npt.NDArray[np.void]
     echoes: npt.NDArray[np.float64] | None
+    _origin: tuple[_core.World, _core.TrialConfig, int, type, Mapping[str, str]]
 
     def __init__(
         self, columns: Mapping[str, npt.NDArray[Any]], provenance: Mapping[str, Any]
@@ -84,13 +86,16 @@ class Record:  # noqa: D101 - made of the columns
         """From the columns above and a provenance; raises InvalidValue where they do not fit."""
         _check(columns)
         _check_provenance(provenance)
+        self._take(columns)
+        self.provenance = dict(provenance)
+
+    def _take(self, columns: Mapping[str, npt.NDArray[Any]]) -> None:
         for name in (*STEP_COLUMNS, *POSE_COLUMNS):
             setattr(self, name, columns[name])
         self.rounds = np.empty(len(columns["rounds"]), _ROUNDS_DTYPE)  # without padding
         for field in _ROUND_FIELDS:
             self.rounds[field] = columns["rounds"][field]
         self.echoes = columns.get("echoes")
-        self.provenance = dict(provenance)
 
     @classmethod
     def _of_trial(
@@ -102,7 +107,17 @@ class Record:  # noqa: D101 - made of the columns
         agent: object,
         own: Mapping[str, str],
     ) -> Record:
-        return cls(columns, provenance_of(world, config, seed, agent) | dict(own))
+        record = cls.__new__(cls)
+        record._take(columns)  # which fit, as the trial made them
+        record._origin = world, config, seed, type(agent), own
+        return record
+
+    @cached_property
+    def provenance(self) -> dict[str, Any]:
+        """Where it came from, as plain values."""
+        # When it is asked for: of many a phase it never is.
+        world, config, seed, agent, own = self._origin
+        return _provenance(world, config, seed, agent) | dict(own)
 
     @classmethod
     def concatenate(cls, records: Sequence[Record]) -> Record:
@@ -264,12 +279,18 @@ class Record:  # noqa: D101 - made of the columns
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to an npz file (no pickles): to the side first, then renamed."""
+        with written_aside(path, "wb") as file:
+            file.write(self.to_bytes())
+
+    def to_bytes(self) -> bytes:
+        """What ``save`` writes."""
         columns = {name: getattr(self, name) for name in (*STEP_COLUMNS, *POSE_COLUMNS, "rounds")}
         if self.echoes is not None:
             columns["echoes"] = self.echoes
         header = {"format": FORMAT, "version": FORMAT_VERSION, "provenance": self.provenance}
-        with written_aside(path, "wb") as file:
-            np.savez_compressed(file, header=np.array(json.dumps(header)), **columns)
+        content = io.BytesIO()
+        np.savez_compressed(content, header=np.array(json.dumps(header)), **columns)
+        return content.getvalue()
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Record:
@@ -279,7 +300,16 @@ class Record:  # noqa: D101 - made of the columns
             if file.read(9)[8:] == b"{":  # where a snapshot's header begins
                 return cls._of_snapshot(file, name)
             file.seek(0)
-            columns, provenance = cls._in_npz(file, name)
+            return cls._of_npz(file, name)
+
+    @classmethod
+    def from_bytes(cls, content: bytes) -> Record:
+        """Read what ``to_bytes`` wrote. Raises FileError."""
+        return cls._of_npz(io.BytesIO(content), "record")
+
+    @classmethod
+    def _of_npz(cls, file: IO[bytes], name: str) -> Record:
+        columns, provenance = cls._in_npz(file, name)
         try:
             record = cls(columns, provenance)
             _core.require_record(record)
@@ -400,6 +430,12 @@ def provenance_of(
     world: _core.World, config: _core.TrialConfig, seed: int, agent: object
 ) -> dict[str, Any]:
     """Where a result comes from, as plain values."""
+    return _provenance(world, config, seed, type(agent))
+
+
+def _provenance(
+    world: _core.World, config: _core.TrialConfig, seed: int, agent: type
+) -> dict[str, Any]:
     text = world.to_json()
     digest = hashlib.sha256(text.encode()).hexdigest()  # world.hash, without the text made twice
     return {
@@ -409,7 +445,7 @@ def provenance_of(
         "world": {"name": world.name, "hash": digest, "json": text},
         "config": config.to_dict(),
         "seed": seed,
-        "agent": f"{type(agent).__module__}.{type(agent).__qualname__}",
+        "agent": f"{agent.__module__}.{agent.__qualname__}",
     }
 
 

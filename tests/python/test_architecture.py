@@ -56,6 +56,7 @@ def test_the_help_of_the_command_line_loads_nothing_that_it_does_not_need():
         "devlearn.cli.reproduce",
         "devlearn.cli.console",
         "devlearn.cli.run",
+        "devlearn.cli.sweep",
         "devlearn.errors",
     }
 

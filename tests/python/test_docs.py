@@ -3,11 +3,13 @@
 import json
 import re
 import shutil
+import sqlite3
 import subprocess
 from pathlib import Path
 
 import devlearn
 import pytest
+from devlearn.experiments.measures import MEASURES
 
 ROOT = Path(__file__).parents[2]
 GUIDE = (ROOT / "docs" / "embedding.md").read_text(encoding="utf-8")
@@ -152,3 +154,53 @@ def test_the_format_tells_of_every_entry_and_array_of_an_adaptive_learner():
     } <= told
     assert {name.split(".")[1] for name in named if name.startswith("hope.")} <= told
     assert {name.replace("path.", "habit.") for name in named if name.startswith("path.")} <= told
+
+
+SWEEPS = (ROOT / "docs/sweeps.md").read_text(encoding="utf-8")
+
+
+def test_the_guide_to_sweeps_runs_as_it_stands(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, measure = re.findall(r"```python\n(.*?)```", SWEEPS, re.DOTALL)
+    names = {}
+    exec(code, names)
+    assert len(names["table"]) == 18
+    (tmp_path / "my_module.py").write_text(measure)
+    spec = {"worlds": ["empty"], "agents": ["paper"], "seeds": "1", "free": [], "rounds": 2}
+    own = {**spec, "measures": ["my_module:straight_share"]}
+    table = devlearn.sweep(own, "own.sqlite", workers=1).to_pandas()
+    assert 0 < table["my_module:straight_share"][0] < 1
+
+
+def test_the_guide_to_sweeps_tells_of_every_key_and_every_measure():
+    schema = json.loads((ROOT / "python/devlearn/sweep.schema.json").read_text(encoding="utf-8"))
+    (toml,) = re.findall(r"```toml\n(.*?)```", SWEEPS, re.DOTALL)
+    told = {"trial" if k == "[trial]" else k for k in rows_of(SWEEPS, "## What is run")}
+    assert told - {"[settings.NAME]"} | {"settings"} == set(schema["properties"])
+    assert set(re.findall(r"^(\w+) =", toml.partition("[trial]")[0], re.MULTILINE)) <= told
+    assert set(rows_of(SWEEPS, "## What is measured")) == set(MEASURES)
+
+
+def test_the_format_of_results_tells_of_every_table_and_column(tmp_path):
+    text = (ROOT / "docs/results-format.md").read_text(encoding="utf-8")
+    spec = {"worlds": ["empty"], "agents": ["paper"], "seeds": "1", "free": [], "rounds": 1}
+    results = devlearn.sweep(spec, tmp_path / "results.sqlite", workers=1)
+    columns = set(results.to_pandas()) - set(MEASURES)
+    assert set(rows_of(text, "## What to read")) == columns
+    with sqlite3.connect(results.path) as connection:
+        tables = {
+            name: [column for _, column, *_ in connection.execute(f"PRAGMA table_info({name})")]
+            for (name,) in connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'")
+        }
+    told = dict(re.findall(r"^\| `(\w+)` \| (.*) \|$", text.split("## Where it stands")[1], re.M))
+    assert set(told) == set(tables)
+    for name, there in tables.items():
+        assert set(there) - set(MEASURES) <= set(re.findall(r"`(\w+)`", told[name])), name
+    assert results.meta.keys() <= set(re.findall(r"`(\w+)`", told["meta"]))
+
+
+def rows_of(text, title):
+    """What stands in code in the first cells of the table under a title."""
+    section = text[text.index(title) + len(title) :].partition("\n## ")[0]
+    first = [line.split("|")[1] for line in section.splitlines() if line.startswith("| ")]
+    return re.findall(r"`([^`]+)`", " ".join(first))

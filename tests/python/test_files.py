@@ -17,12 +17,12 @@ def test_every_python_file_of_the_package_and_the_extension_make_the_fingerprint
     extension.write_bytes(b"one")
     monkeypatch.setattr(_files, "__file__", str(tmp_path / "_files.py"))
     monkeypatch.setattr(_files._core, "__file__", str(extension))
-    prints = [_files.code_fingerprint(), _files.code_fingerprint()]
+    prints = [_files.code_version(), _files.code_version()]
     assert prints[0] == prints[1]
     measures.write_text("another")
-    prints.append(_files.code_fingerprint())
+    prints.append(_files.code_version())
     extension.write_bytes(b"two")
-    prints.append(_files.code_fingerprint())
+    prints.append(_files.code_version())
     assert len(set(prints)) == 3
 
 

@@ -9,7 +9,7 @@ import argparse
 import signal
 from collections.abc import Sequence
 
-from . import console, reproduce, run
+from . import console, reproduce, run, sweep
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -51,7 +51,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and leave")
     verbs = parser.add_subparsers(required=True, metavar="VERB")
-    for verb in (reproduce, run):
+    for verb in (reproduce, run, sweep):
         verb.add_to(verbs)
     return parser
 

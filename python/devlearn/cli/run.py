@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +13,8 @@ from .console import say, warn
 
 if TYPE_CHECKING:
     from .._core import TrialConfig, World
-    from ..paper.schedule import Run, Schedule
+    from ..experiments.schedule import Schedule
+    from ..paper.schedule import Run
 
 _DESCRIPTION = """\
 One experiment: two rounds of free learning, then path learning by rounds until
@@ -91,14 +92,15 @@ def _main(options: argparse.Namespace) -> int:
     from .. import _core
     from .._files import owned_folder
     from ..errors import InvalidValue
-    from ..paper import schedule
+    from ..experiments.contenders import preset
+    from ..experiments.schedule import Schedule
 
     if options.save_every is not None and not 1 <= options.save_every <= 2**40:
         raise InvalidValue("--save-every", options.save_every, "a whole number in [1, 2^40]")
     free, rounds = (options.steps, options.steps), options.rounds
-    planned = schedule.Schedule(free, rounds, options.step_limit, options.hopeless)
+    planned = Schedule(free, rounds, options.step_limit, options.hopeless)
     world = _core.World.load(options.world)
-    config = schedule.preset(options.preset)
+    config = preset(options.preset)
     if options.config is not None:
         config = _core.load_config(options.config)
     config = _changed(config, options.set)
@@ -190,43 +192,22 @@ def _draw(folder: Path, made: Run) -> None:
 
 
 def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:
-    from ..errors import InvalidValue
+    from .._settings import changed, field_names
+    from ..errors import InvalidValue, WrongType
 
-    fields = config.to_dict()
+    known = list(field_names(config.to_dict()))
+    values = {}
     for change in changes:
         name, equals, text = change.partition("=")
-        *outer, last = name.split(".")
-        place: Any = fields
-        owner: Any = config
-        for part in outer:
-            place = place.get(part) if isinstance(place, dict) else None
-            owner = getattr(owner, part, None)
-        if not equals or not isinstance(place, dict) or last not in _leaves(place):
-            known = ", ".join(_names(config.to_dict()))
-            raise InvalidValue("--set", repr(change), f"FIELD=VALUE, where FIELD is one of {known}")
-        field = owner.fields()[last]
+        if not equals or name not in known:
+            allowed = f"FIELD=VALUE, where FIELD is one of {', '.join(known)}"
+            raise InvalidValue("--set", repr(change), allowed)
         try:
-            place[last] = json.loads(text)
+            values[name] = json.loads(text)
         except (ValueError, RecursionError):
-            place[last] = text
-        try:
-            if isinstance(place[last], bool) and not isinstance(field["default"], bool):
-                raise TypeError  # to Python true is a number, too
-            owner.from_dict({last: place[last]})
-        except TypeError as error:
-            raise InvalidValue("--set", repr(change), field["range"]) from error
-        except InvalidValue:
-            pass  # it may be right with the others
-    return config.from_dict(fields)
-
-
-def _names(fields: Mapping[str, Any], outer: str = "") -> Iterator[str]:
-    for name, value in fields.items():
-        if isinstance(value, dict):
-            yield from _names(value, f"{outer}{name}.")
-    yield from (outer + name for name in _leaves(fields))
-
-
-def _leaves(fields: Mapping[str, Any]) -> list[str]:
-    # `kind` says which class a dict stands for, and is no field of it.
-    return [n for n, value in fields.items() if not isinstance(value, dict) and n != "kind"]
+            values[name] = text
+    try:
+        return changed(config, values)
+    except WrongType as error:
+        told = next(c for c in reversed(changes) if c.startswith(f"{error.quantity}="))
+        raise InvalidValue("--set", repr(told), error.allowed) from error

@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from .._files import code_fingerprint, made_folder
+from .._files import code_version, made_folder
 from ..errors import FileError, MissingExtra
 
 try:
@@ -37,7 +37,7 @@ class Journal:
     def __init__(self, path: Path) -> None:
         """Opens or makes it. Raises FileError."""
         self._path = path
-        self._code = code_fingerprint()
+        self._code = code_version()
         self._found: dict[str, Result] = {}
         self._flushed = 0.0
         self.damaged = 0

@@ -9,13 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from .._core import Trial, TrialConfig, World
+from ..experiments import contenders
+from ..experiments.schedule import Schedule
 from ..plots.panels import panels, shared_legend
 from ..plots.style import BLACK, BLUE, VERMILLION, styled
 from ..record import Record
 from . import measures, places, schedule
 from .figures import Drawn
 from .measures import Measures
-from .schedule import Schedule
 
 MOST_SEEDS = 10
 _LATE = 20
@@ -31,13 +32,13 @@ def planned(worlds: Sequence[str], seeds: Sequence[int]) -> list[dict[str, Any]]
     return [
         {
             "beyond": True,
-            "world": World.load(name).to_json(),
-            "config": schedule.preset(preset).to_dict(),
+            "world": World.load(world).to_json(),
+            "config": contenders.preset(name).to_dict(),
             "seed": seed,
             "schedule": plan.to_dict(),
         }
-        for name in worlds
-        for preset, plan in schedules().items()
+        for world in worlds
+        for name, plan in schedules().items()
         for seed in seeds
     ]
 

@@ -12,9 +12,10 @@ import numpy as np
 
 from .._core import Kind, Learner, LearnerConfig, RandomAgent, TrialConfig, World
 from .._types import Pose
+from ..experiments.schedule import Schedule
 from . import measures, schedule
 from .measures import Measures
-from .schedule import Run, Schedule
+from .schedule import Run
 
 
 def job(

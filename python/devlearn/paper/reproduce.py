@@ -13,6 +13,7 @@ from .. import _core
 from .._files import owned_folder
 from .._worlds import worlds
 from ..errors import InvalidValue
+from ..experiments.contenders import preset
 from ..experiments.runs import Journal, run_all
 from ..record import provenance_of, written_aside
 from . import beyond, figures, jobs, places, schedule
@@ -117,7 +118,7 @@ def _run(
 
     results = {}
     for name in schedule.READINGS:
-        config = schedule.preset(name)
+        config = preset(name)
         starts = places.new_starts(world, config)
         shortest = places.shortest(world, config)
 
@@ -149,7 +150,7 @@ def _run(
             f"{name}: similar worlds",
         )
         # Random motions learn nothing, so they are the same control for both presets.
-        plain = schedule.preset("paper")
+        plain = preset("paper")
         random = measured(
             planned(plain, seeds, agent="random", rounds=schedule.CONTROL_ROUNDS),
             "control: random motions",

@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Any
 
 from .. import _core
-from .._files import code_fingerprint
+from .._files import code_version
 from ..errors import FileError
+from ..experiments.schedule import Schedule
 from ..record import Record, provenance_of, written_aside
-from .schedule import Schedule
 
 ABOUT = "run.json"  # which run the folder is of, and whether it is finished
 STATE = "state.safetensors"  # a trial's snapshot, with the record so far
@@ -42,7 +42,7 @@ def begin(
     unless they may be overwritten.
     """
     whence = provenance_of(world, config, seed, _core.Learner()) | {
-        "code": code_fingerprint(),
+        "code": code_version(),
         "run": dict(planned),
     }
     about = folder / ABOUT

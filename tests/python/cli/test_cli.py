@@ -18,6 +18,7 @@ import pytest
 from conftest import differences, refusal
 from devlearn import Record, Trial, TrialConfig, World, _core, cli
 from devlearn.experiments import runs
+from devlearn.experiments.schedule import Schedule
 from devlearn.paper import jobs, measures, schedule, survival, tables
 from devlearn.paper.claims import claims
 
@@ -236,7 +237,7 @@ LONG = ["run", "paper", "--steps", "3000", "--rounds", "40", "--step-limit", "50
 def stopped_by_ctrl_c(line, monkeypatch, rounds):
     """Runs a line until that round has begun, and then sends Ctrl-C once."""
 
-    parts = schedule.Schedule.parts
+    parts = Schedule.parts
 
     def stopped(self, trial, *arguments, **more):
         for part in parts(self, trial, *arguments, **more):
@@ -245,7 +246,7 @@ def stopped_by_ctrl_c(line, monkeypatch, rounds):
             yield part
 
     with monkeypatch.context() as patch:
-        patch.setattr(schedule.Schedule, "parts", stopped)
+        patch.setattr(Schedule, "parts", stopped)
         assert cli.main(line) == 130
 
 
@@ -327,7 +328,7 @@ def test_run_refuses_to_go_on_in_another_world_or_with_other_code(tmp_path, monk
     capsys.readouterr()
     line = ["run", "office", *LONG[2:], "--output", tmp_path]
     assert "world.name: got an unfinished run with" in refusal(capsys, *line)
-    monkeypatch.setattr(survival, "code_fingerprint", lambda: "other code")
+    monkeypatch.setattr(survival, "code_version", lambda: "other code")
     assert "an unfinished run with another build" in refusal(capsys, *LONG, "--output", tmp_path)
 
 
@@ -498,14 +499,14 @@ def small():
 
     with pytest.MonkeyPatch.context() as patch:
         for name, value in {
-            "SECTION_VI": schedule.Schedule((3000, 3000), rounds=6, step_limit=2500),
+            "SECTION_VI": Schedule((3000, 3000), rounds=6, step_limit=2500),
             "CONTROL_ROUNDS": 1, "SIMILAR_ROUNDS": 2, "SIMILAR_CONTROL_ROUNDS": 1,
             "NEW_START_ROUNDS": 4,
         }.items():  # fmt: skip
             patch.setattr(schedule, name, value)
         patch.setattr(measures, "settled_round", lambda record: int(record.rounds["round"][-1]))
         patch.setattr(tables, "PAPER_TABLE_1", {4: 194, 8: 149})
-        patch.setattr(runs, "code_fingerprint", lambda: "this code")  # whoever edits it meanwhile
+        patch.setattr(runs, "code_version", lambda: "this code")  # whoever edits it meanwhile
         yield figures.Gallery()
 
 

@@ -12,7 +12,9 @@ import pytest
 from conftest import differences, refusal
 from devlearn import FileError, Record, Rectangle, Trial, World, cli
 from devlearn._files import LOCK, owned_folder
-from devlearn.paper import schedule, survival
+from devlearn.experiments.contenders import preset
+from devlearn.experiments.schedule import Schedule
+from devlearn.paper import survival
 
 SHORT = ["run", "empty", "--steps", "300", "--rounds", "3", "--step-limit", "200"]
 LONG = ["run", "paper", "--steps", "60000", "--rounds", "20", "--save-every", "1000"]
@@ -142,8 +144,8 @@ def test_a_description_that_is_none_is_refused(tmp_path, capsys, content):
 @pytest.fixture
 def saved(tmp_path):
     """A folder with a state in it, and what describes its run."""
-    config, world = schedule.preset("paper"), World.load("paper")
-    planned = schedule.Schedule((3000, 0), 3)
+    config, world = preset("paper"), World.load("paper")
+    planned = Schedule((3000, 0), 3)
     whence = survival.begin(tmp_path, world, config, 1, planned.to_dict())
     trial = Trial(world, config, 1)
     record = trial.free_learning(1000)

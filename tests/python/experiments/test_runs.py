@@ -15,9 +15,9 @@ from pathlib import Path
 import pytest
 from devlearn import FileError
 from devlearn.experiments import runs
+from devlearn.experiments.contenders import preset
 from devlearn.experiments.runs import Journal, run_all
 from devlearn.paper.jobs import execute, job
-from devlearn.paper.schedule import preset
 
 SOON = 10.0  # [s] what should happen at once, on a busy machine
 
@@ -174,7 +174,7 @@ def test_what_other_code_made_is_not_taken_for_a_result(tmp_path, monkeypatch):
     journal.add({"n": 0}, {"square": 0})
     journal.close()
     with monkeypatch.context() as patch:
-        patch.setattr(runs, "code_fingerprint", lambda: "of other code")
+        patch.setattr(runs, "code_version", lambda: "of other code")
         other = Journal(path)
         assert other.find({"n": 0}) is None
         other.close()

@@ -6,10 +6,11 @@ import devlearn
 import numpy as np
 import pytest
 from devlearn import Kind, TrialConfig
+from devlearn.experiments.schedule import Schedule
 from devlearn.paper import jobs
 from devlearn.paper.claims import claims
 from devlearn.paper.places import new_starts
-from devlearn.paper.schedule import Schedule, run, useful_round
+from devlearn.paper.schedule import run, useful_round
 
 
 @pytest.fixture(scope="module")

@@ -5,9 +5,11 @@ from types import SimpleNamespace
 import pytest
 from conftest import differences, refused
 from devlearn import RandomAgent, Record, Trial, TrialConfig, World
+from devlearn.experiments.contenders import preset
+from devlearn.experiments.schedule import Next, Schedule
 from devlearn.paper import schedule
 from devlearn.paper.places import new_starts
-from devlearn.paper.schedule import Next, Schedule, preset, run, settled_runs, useful_round
+from devlearn.paper.schedule import run, settled_runs, useful_round
 
 FAR = World(5, 5, (0.5, 0.5, 0), (4.5, 4.5))  # nothing is reached in two steps
 NEAR = World(5, 5, (2.5, 2.5, 0), (2.9, 2.5))

@@ -4,11 +4,12 @@ import math
 from types import SimpleNamespace
 
 import numpy as np
+from devlearn.experiments.schedule import Schedule
 from devlearn.paper import schedule, tables
 
 
 def test_rounds_that_a_hopeless_run_was_not_given_count_as_failed(monkeypatch):
-    monkeypatch.setattr(schedule, "SECTION_VI", schedule.Schedule(rounds=4, step_limit=90))
+    monkeypatch.setattr(schedule, "SECTION_VI", Schedule(rounds=4, step_limit=90))
     runs = [{"round_steps": steps} for steps in ([10, 20, 30, 40], [20, 90], [30, 10, 20, 20])]
     low, median, high = tables.steps_over_runs(runs)
     assert median.tolist() == [20, 20, 30, 40]
@@ -23,7 +24,7 @@ def test_what_could_not_be_measured_is_null_in_json():
 
 
 def test_a_table_of_a_run_and_of_all_has_the_papers_rounds(monkeypatch):
-    monkeypatch.setattr(schedule, "SECTION_VI", schedule.Schedule(rounds=3, step_limit=90))
+    monkeypatch.setattr(schedule, "SECTION_VI", Schedule(rounds=3, step_limit=90))
     monkeypatch.setattr(tables, "PAPER_TABLE_1", {3: 194, 5: 149})
     rounds = np.array([(3, 7, True), (4, 8, True), (5, 9, True)],
                       dtype=[("round", "i4"), ("steps", "i8"), ("arrived", "?")])  # fmt: skip

@@ -1,0 +1,83 @@
+"""Many runs, each kept as it is finished: ``devlearn.sweep``."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import Any
+
+from .._calls import path_text, shown
+from .._files import made_folder
+from ..errors import InvalidValue, MissingExtra
+from . import spec as specs
+from .pools import Borrowed, Done, Here, Pool, Processes, run_all
+from .store import Results, Store
+
+try:
+    from tqdm import tqdm
+except ModuleNotFoundError as error:
+    raise MissingExtra("devlearn.sweep", "tqdm", "experiments") from error
+
+_MOST_WORKERS = 4096
+
+
+def sweep(
+    spec: Mapping[str, Any] | str | os.PathLike[str] | specs.Spec,
+    output: str | os.PathLike[str],
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    executor: Executor | None = None,
+    progress: bool | None = None,
+) -> Results:
+    """Run worlds x agents x settings x seeds, and keep what each run came to in ``output``.
+
+    ``spec`` is a dict, or a TOML file, as docs/sweeps.md tells. Runs that are in the file are not
+    made again: stopped, the same call goes on. Each run is the same wherever it is made.
+
+    Parameters: workers, processes of this machine (None: one a core; 1: this process alone);
+    scheduler, the address of a Dask cluster in place of them, or executor, any of
+    concurrent.futures, with ``workers`` of its batches under way; progress: None where somebody
+    watches.
+
+    A run that fails is kept with its traceback, and the sweep goes on. Ctrl-C raises
+    KeyboardInterrupt; what is finished is kept. Raises InvalidValue for what the spec cannot mean,
+    FileError for a file that is none, is damaged, is in use by another, or cannot be written.
+    """
+    asked = spec if isinstance(spec, specs.Spec) else specs.read(spec)
+    path = Path(path_text(output))
+    if path.is_dir() or not path.name:
+        raise InvalidValue("output", str(path), "a file, such as results.sqlite")
+    made_folder(path.parent)
+    with Store(path, asked) as store:
+        missing = [*store.missing(asked.jobs())]
+        done = len(asked) - len(missing)
+        hidden = None if progress is None else not progress
+        with tqdm(desc="runs", total=len(asked), initial=done, unit="run", disable=hidden) as bar:
+
+            def keep(finished: Done) -> None:
+                store.add(finished)
+                bar.update(len(finished))
+
+            pool = _pool(workers, scheduler, executor, len(missing))
+            run_all(missing, len(missing), pool, keep)
+    return Results(path)
+
+
+def _pool(
+    workers: int | None, scheduler: str | None, executor: Executor | None, missing: int
+) -> Pool:
+    if workers is not None and (type(workers) is not int or not 1 <= workers <= _MOST_WORKERS):
+        raise InvalidValue("workers", shown(workers), f"a whole number in [1, {_MOST_WORKERS}]")
+    if scheduler is not None and executor is not None:
+        raise InvalidValue("scheduler", scheduler, "none where there is an executor")
+    workers = workers or os.cpu_count() or 1
+    if executor is not None:
+        if not isinstance(executor, Executor):
+            raise InvalidValue("executor", shown(executor), "one of concurrent.futures")
+        return Borrowed(executor, workers)
+    if workers == 1 or missing < 2:
+        return Here()
+    return Processes(min(workers, missing))
