@@ -149,7 +149,7 @@ ROOMS = {
     "paper": {"analysis", "plots", "experiments"},
     "cli": {"experiments", "paper"},
 }
-EXTRAS = {"matplotlib": "plots", "jinja2": "paper", "tqdm": "experiments"}
+EXTRAS = {"matplotlib": "plots", "jinja2": "paper", "tqdm": "experiments", "scipy": "experiments"}
 
 
 @pytest.mark.parametrize("room", ROOMS)

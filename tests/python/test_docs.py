@@ -9,6 +9,7 @@ from pathlib import Path
 
 import devlearn
 import pytest
+from devlearn.experiments import statistics
 from devlearn.experiments.measures import MEASURES
 
 ROOT = Path(__file__).parents[2]
@@ -204,3 +205,16 @@ def rows_of(text, title):
     section = text[text.index(title) + len(title) :].partition("\n## ")[0]
     first = [line.split("|")[1] for line in section.splitlines() if line.startswith("| ")]
     return re.findall(r"`([^`]+)`", " ".join(first))
+
+
+STATISTICS = (ROOT / "docs/statistics.md").read_text(encoding="utf-8")
+
+
+def test_the_code_of_the_guide_to_statistics_runs_and_what_it_names_is_there(capsys):
+    (code,) = re.findall(r"```python\n(.*?)```", STATISTICS, re.DOTALL)
+    exec(code, {})
+    assert capsys.readouterr().out.count("Estimate(value=") == 2
+    table = STATISTICS[STATISTICS.index("| what is asked") : STATISTICS.index("Below, n is")]
+    named = set(re.findall(r"`(\w+)", table))
+    assert named >= {"bootstrap", "estimate_share"}
+    assert {name for name in named if not hasattr(statistics, name)} == set()

@@ -1,1 +1,1 @@
-"""What runs many jobs."""
+"""What runs many jobs, and what is told of them."""
