@@ -29,10 +29,28 @@ try:
 except ModuleNotFoundError as error:
     raise MissingExtra("devlearn.experiments.statistics", "scipy", "experiments") from error
 
+__all__ = [
+    "Estimate",
+    "bootstrap",
+    "difference",
+    "estimate_improvement",
+    "estimate_mean",
+    "estimate_median",
+    "estimate_share",
+    "interquartile_mean",
+    "mean",
+    "median",
+    "median_over_tasks",
+    "optimality_gap",
+    "performance_profile",
+    "probability_of_improvement",
+    "ratio",
+]
+
 Array = npt.NDArray[np.float64]
 Statistic = Callable[..., npt.ArrayLike]
 
-_BLOCK = 2**20  # scores of the resamples that are held at once
+_BLOCK = 2**17  # scores of the resamples that are held at once; of pairs of runs there are more
 
 
 @dataclass(frozen=True)
@@ -117,11 +135,18 @@ def difference(statistic: Statistic) -> Statistic:
 
 
 def ratio(statistic: Statistic) -> Statistic:
-    """The statistic of x over that of y: a function (x, y) for ``bootstrap``, of scores >= 0.
+    """The statistic of x over that of y, neither below 0: a function (x, y) for ``bootstrap``.
 
     NaN where both are inf, or 0.
     """
-    return lambda x, y: np.divide(statistic(x), statistic(y))
+
+    def of(x: Array, y: Array) -> Array:
+        over, under = np.asarray(statistic(x)), np.asarray(statistic(y))
+        lowest = min(over.min(), under.min())
+        _require(not lowest < 0, "statistic of a ratio", lowest, ">= 0")
+        return np.asarray(np.divide(over, under))
+
+    return of
 
 
 def probability_of_improvement(x: npt.ArrayLike, y: npt.ArrayLike) -> Array:
@@ -224,9 +249,9 @@ def estimate_improvement(
     """``probability_of_improvement`` of x over y, with an interval that few runs do not empty.
 
     x: (runs of x, tasks), y: (runs of y, tasks). The interval is Newcombe's (2006, method 5):
-    the probabilities p with |P - p| <= z sqrt(V(p)), where V is the variance of P that Hanley and
-    McNeil (1982) give, over the number of tasks. Where every run of x is better than every run of y
-    it reaches from below 1 to 1; a bootstrap's width would be 0.
+    the probabilities p with ``|P - p| <= z sqrt(V(p))``, where V is the variance of P that Hanley
+    and McNeil (1982) give, over the number of tasks. Where every run of x is better than every run
+    of y it reaches from below 1 to 1; a bootstrap's width would be 0.
 
     paired: run i of x and run i of y have the same seed. Then it is the share of the pairs in which
     x is better, ties by half, with the interval of ``estimate_share``.
@@ -272,8 +297,8 @@ def bootstrap(
     between the quantiles Phi(-+ sqrt(n / (n - 1)) t) where t is Student's of the level with
     tasks (n - 1) degrees of freedom, n being the least number of runs. Otherwise the percentile
     interval, which is rliable's. It is too short for few runs: at 95 % it covered the true mean of
-    skewed scores in 81 % of samples of five runs of one task, the expanded one in 91 %. BCa is no
-    better (it corrects skewness, not width), and it and a studentised one have no value where
+    skewed scores in 81 % of samples of five runs of one task, the expanded one in 91 %. BCa covers
+    hardly more (it corrects skewness, not width), and it and a studentised one have no value where
     scores are inf.
 
     Where too few resamples lie beyond such a quantile, the interval is vacuous: so it is of three

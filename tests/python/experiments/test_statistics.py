@@ -543,6 +543,7 @@ LONGER = [[1.0, 2.0]] * 3
         (lambda: bootstrap(mean, [GOOD]), "shape of scores[0]", "(1, 2, 2)"),
         (lambda: bootstrap(mean), "scores", "none"),
         (lambda: bootstrap(np.mean, GOOD), "shape of the statistic", "()"),
+        (lambda: ratio(mean)(GOOD, [[-2.0]]), "statistic of a ratio", "-2.0"),
         (lambda: bootstrap(mean, GOOD, resamples=0), "resamples", "0"),
         (lambda: bootstrap(mean, GOOD, resamples=10.5), "resamples", "10.5"),
         (lambda: bootstrap(mean, GOOD, seed=-1), "seed", "-1"),
