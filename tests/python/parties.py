@@ -34,6 +34,14 @@ class Raises(Straight):
         return 2
 
 
+class Repaired(Straight):
+    """Fails as long as a file is not there."""
+
+    def __init__(self, seed, told):
+        super().__init__(seed)
+        Path(told).stat()
+
+
 class Deadly(Straight):
     """Ends its process where its seed is 3, and tells of it in a file."""
 

@@ -46,6 +46,7 @@ def add_to(verbs: Any) -> None:
     parser.add_argument(
         "--scheduler", metavar="ADDRESS", help="of a Dask cluster, in place of processes here"
     )
+    parser.add_argument("--retry-failed", action="store_true", help="make runs again that failed")
     parser.add_argument(
         "--run", metavar="JSON", help="make this run alone, as the command of a row has it"
     )

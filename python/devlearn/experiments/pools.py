@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import multiprocessing
 import os
@@ -26,6 +27,14 @@ TRIES = 3
 """A job whose worker died so often has failed."""
 
 Done = Sequence[tuple[Job, Row]]
+
+
+@dataclasses.dataclass
+class _Try:
+    """A job, and how many workers died at it."""
+
+    job: Job
+    deaths: int = 0
 
 
 def execute_all(jobs: Sequence[Job]) -> list[Row]:
@@ -59,13 +68,13 @@ def run_all(jobs: Iterable[Job], count: int, pool: Pool, keep: Callable[[Done], 
     stops all this, Ctrl-C too, loses what is under way, and nothing that was finished.
     """
     batches = _Batches(jobs, count, pool)
-    running: dict[Future[list[Row]], Sequence[Job]] = {}
+    running: dict[Future[list[Row]], Sequence[_Try]] = {}
 
     def kept(future: Future[list[Row]]) -> None:
         batch = running.pop(future)
         rows = future.result()
         batches.took(rows)
-        keep([*zip(batch, rows)])
+        keep([(tried.job, row) for tried, row in zip(batch, rows)])
 
     try:
         while True:
@@ -96,9 +105,9 @@ def run_all(jobs: Iterable[Job], count: int, pool: Pool, keep: Callable[[Done], 
         pool.stop()
 
 
-def _submitted(pool: Pool, batch: Sequence[Job]) -> Future[list[Row]]:
+def _submitted(pool: Pool, batch: Sequence[_Try]) -> Future[list[Row]]:
     try:
-        return pool.submit(batch)
+        return pool.submit([tried.job for tried in batch])
     except BrokenExecutor as error:  # lost since the one before
         future: Future[list[Row]] = Future()
         future.set_exception(error)
@@ -113,20 +122,19 @@ class _Batches:
         self._left = count
         self._pool = pool
         self._mean = pool.seconds  # a run; one at a time until it is known
-        self._suspects: deque[Job] = deque()
-        self._deaths: dict[int, int] = {}  # by the job's id()
+        self._suspects: deque[_Try] = deque()
 
     @property
     def width(self) -> int:
         return 1 if self._suspects else self._pool.width
 
-    def next(self, others: bool) -> Sequence[Job]:
+    def next(self, others: bool) -> Sequence[_Try]:
         """The next batch; none at the end, or before those under way are back."""
         if self._suspects:
             return () if others else [self._suspects.popleft()]
         share = self._left // (2 * self._pool.width)  # so that all end together
         size = max(1, min(int(self._pool.seconds / self._mean), share))
-        batch = [*itertools.islice(self._jobs, size)]
+        batch = [_Try(job) for job in itertools.islice(self._jobs, size)]
         self._left -= len(batch)
         return batch
 
@@ -135,15 +143,16 @@ class _Batches:
         for row in rows:
             self._mean += 0.1 * (max(row.seconds, 1e-6) - self._mean)
 
-    def lost(self, batch: Sequence[Job]) -> Done:
+    def lost(self, batch: Sequence[_Try]) -> Done:
         """Of a batch whose worker died: those that are given up."""
         given_up = []
-        for job in batch:
-            deaths = self._deaths[id(job)] = self._deaths.get(id(job), 0) + 1
-            if deaths < TRIES:
-                self._suspects.append(job)
+        for tried in batch:
+            tried.deaths += 1
+            if tried.deaths < TRIES:
+                self._suspects.append(tried)
             else:
-                given_up.append((job, Row(error=f"its worker died at each of {TRIES} tries")))
+                gone = Row(error=f"its worker died at each of {TRIES} tries")
+                given_up.append((tried.job, gone))
         return given_up
 
 

@@ -218,14 +218,17 @@ class Store:
     A kill of the process loses no run that was added, a power cut what came in the last moments.
     """
 
-    def __init__(self, path: str | os.PathLike[str], spec: Spec) -> None:
-        """Makes the file, or goes on with it.
+    def __init__(
+        self, path: str | os.PathLike[str], spec: Spec, *, retry_failed: bool = False
+    ) -> None:
+        """Makes the file, or goes on with it; ``retry_failed``: runs that failed are missing.
 
         Raises FileError: it cannot be written, is none of devlearn's, of another schema, in use by
         another writer, or holds runs of another version.
         """
         self.path = Path(path_text(path))
         self._spec = spec
+        self._retry_failed = retry_failed
         self._stack = ExitStack()
 
     def __enter__(self) -> Store:
@@ -300,7 +303,8 @@ class Store:
             (world, variant, seed): (set(json.loads(own)), rounds, record)
             for world, variant, seed, own, rounds, record in execute(
                 "SELECT world, variant, seed, own, rounds IS NOT NULL, record IS NOT NULL "
-                "FROM runs LEFT JOIN kept ON run = id"
+                "FROM runs LEFT JOIN kept ON run = id WHERE error IS NULL OR NOT ?",
+                [self._retry_failed],
             )
         }
 

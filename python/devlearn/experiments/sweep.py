@@ -30,6 +30,7 @@ def sweep(
     workers: int | None = None,
     scheduler: str | None = None,
     executor: Executor | None = None,
+    retry_failed: bool = False,
     progress: bool | None = None,
 ) -> Results:
     """Run worlds x agents x settings x seeds, and keep what each run came to in ``output``.
@@ -39,8 +40,8 @@ def sweep(
 
     Parameters: workers, processes of this machine (None: one a core; 1: this process alone);
     scheduler, the address of a Dask cluster in place of them, or executor, any of
-    concurrent.futures, with ``workers`` of its batches under way; progress: None where somebody
-    watches.
+    concurrent.futures, with ``workers`` of its batches under way; retry_failed: whether runs that
+    failed are made again; progress: None where somebody watches.
 
     A run that fails is kept with its traceback, and the sweep goes on. Ctrl-C raises
     KeyboardInterrupt; what is finished is kept. Raises InvalidValue for what the spec cannot mean,
@@ -51,9 +52,9 @@ def sweep(
     if path.is_dir() or not path.name:
         raise InvalidValue("output", str(path), "a file, such as results.sqlite")
     made_folder(path.parent)
-    with Store(path, asked) as store:
-        missing = [*store.missing(asked.jobs())]
-        done = len(asked) - len(missing)
+    with Store(path, asked, retry_failed=retry_failed) as store:
+        missing = sum(1 for _ in store.missing(asked.jobs()))
+        done = len(asked) - missing
         hidden = None if progress is None else not progress
         with tqdm(desc="runs", total=len(asked), initial=done, unit="run", disable=hidden) as bar:
 
@@ -61,8 +62,8 @@ def sweep(
                 store.add(finished)
                 bar.update(len(finished))
 
-            pool = _pool(workers, scheduler, executor, len(missing))
-            run_all(missing, len(missing), pool, keep)
+            pool = _pool(workers, scheduler, executor, missing)
+            run_all(store.missing(asked.jobs()), missing, pool, keep)
     return Results(path)
 
 

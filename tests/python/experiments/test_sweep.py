@@ -76,6 +76,17 @@ def test_a_run_that_raises_is_kept_with_its_traceback_and_the_sweep_goes_on(tmp_
     assert (frame["steps"].notna() == frame["error"].isna()).all()
 
 
+def test_runs_that_failed_are_made_again_only_where_that_is_asked_for(tmp_path):
+    path, told = tmp_path / "r.sqlite", tmp_path / "repaired"
+    asked = {**BRIEF, "agents": ["parties:Repaired"], "seeds": "1-3"}
+    asked["settings"] = {"parties:Repaired": {"told": str(told)}}
+    assert len(sweep(asked, path, workers=1).failed) == 3
+    told.touch()
+    assert len(sweep(asked, path, workers=1).failed) == 3
+    frame = sweep(asked, path, workers=1, retry_failed=True).to_pandas()
+    assert len(frame) == 3 and frame["error"].isna().all() and frame["steps"].notna().all()
+
+
 def test_a_job_that_ends_its_workers_is_given_up_after_three_and_no_other_is(tmp_path):
     told = tmp_path / "told"
     asked = {**BRIEF, "agents": ["parties:Deadly"], "seeds": "1-8"}
