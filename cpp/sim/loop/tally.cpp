@@ -1,14 +1,16 @@
 #include "devlearn/tally.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <string>
 
+#include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 
 namespace devlearn {
 namespace {
 
-// Bits that a motion takes in the id of a mapping; a situation's number has the 32 above them.
-constexpr int kMotionBits = 31;
+constexpr int kMostMotions = 65535;
 
 bool is_update(Event event) {
   return event == Event::kExtension || event == Event::kOrientation || event == Event::kAbandonment;
@@ -41,6 +43,11 @@ Step step_of(const Record& record, std::size_t i) {
 Tally Tally::of(const Record& record) {
   if (record.rounds_only()) throw InvalidValue("record", "rounds only", "one that holds steps");
   record.validate();
+  for (std::size_t i = 0; i < record.steps(); ++i) {
+    if (record.motion[i] < kMostMotions) continue;
+    require_count("record.motion[" + std::to_string(i) + "]", record.motion[i], 0,
+                  kMostMotions - 1);
+  }
   Tally tally;
   std::size_t step = 0, pose = 0;
   const auto pose_at = [&](std::size_t k) {
@@ -80,7 +87,7 @@ void Tally::begin_round(std::int32_t number, const Pose& pose) {
 
 void Tally::count(const Step& step) {
   // It alone may ask for memory: where there is none, the step is not counted at all.
-  const bool known_ineffective = this->known_ineffective(step);
+  First& first = first_of(step.situation, step.motion);
   const bool ineffective = step.smf_used < 0.0;
   const bool update = is_update(step.event);
   RoundTally& round = rounds_.back();
@@ -91,28 +98,40 @@ void Tally::count(const Step& step) {
   round.cost += step.cost;
   round.path = fingerprint(round.path, step.motion);
   round.explored += step.kind == Kind::kExplore;
-  round.known_ineffective += known_ineffective;
+  round.known_ineffective += first == First::kIneffective;
+  if (first == First::kNone) {
+    first = ineffective ? First::kIneffective : First::kEffective;
+    ++mappings_;
+  }
   round.ineffective += ineffective;
   round.updates += update;
   round.ineffective_updates += update && ineffective;
-  round.mappings = static_cast<std::int64_t>(mappings_.size());
+  round.mappings = mappings_;
   round.explored_count = step.explored_count;
   round.effective_count = step.effective_count;
   here_ = step.pose;
 }
 
-// Whether a step's mapping was executed before, and the first time ineffective.
-bool Tally::known_ineffective(const Step& step) {
-  constexpr std::uint32_t kAbsent = detail::SituationIndex::kAbsent;
-  std::uint32_t situation = situations_.find(step.situation);
-  if (situation == kAbsent) situation = situations_.add(step.situation);
-  const SituationId id = SituationId{situation} << kMotionBits | step.motion;
-  const std::uint32_t mapping = mappings_.find(id);
-  if (mapping != kAbsent) return first_ineffective_[mapping];
-  first_ineffective_.resize(mappings_.size() + 1);
-  first_ineffective_.back() = step.smf_used < 0.0;
-  mappings_.add(id);
-  return false;
+Tally::First& Tally::first_of(SituationId situation, std::int32_t motion) {
+  if (static_cast<std::size_t>(motion) >= width_) widen(motion);
+  std::uint32_t row = situations_.find(situation);
+  if (row == detail::SituationIndex::kAbsent) {
+    first_.resize((situations_.size() + 1) * width_, First::kNone);
+    row = situations_.add(situation);
+  }
+  return first_[row * width_ + static_cast<std::size_t>(motion)];
+}
+
+// Makes room for a motion in every row.
+void Tally::widen(std::int32_t motion) {
+  std::size_t width = width_;
+  while (width <= static_cast<std::size_t>(motion)) width *= 2;
+  std::vector<First> wider(situations_.size() * width, First::kNone);
+  for (std::size_t row = 0; row < situations_.size(); ++row) {
+    std::copy_n(&first_[row * width_], width_, &wider[row * width]);
+  }
+  first_.swap(wider);
+  width_ = width;
 }
 
 }  // namespace devlearn

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <tuple>
 #include <vector>
@@ -63,7 +64,7 @@ struct RoundTally {
 class Tally {
  public:
   /// Of the steps of a record: what was counted as they passed. Throws InvalidValue for a record of
-  /// rounds only, and as Record::validate.
+  /// rounds only, for motions beyond 65535, and as Record::validate.
   static Tally of(const Record& record);
 
   /// What each round came to.
@@ -73,19 +74,23 @@ class Tally {
 
   /// Begins a round, or goes on with the last one, as Record::begin_round.
   void begin_round(std::int32_t number, const Pose& pose);
-  /// Counts a step of the round begun last.
+  /// Counts a step of the round begun last; its motion is one of at most 65535.
   void count(const Step& step);
   /// Counts that round as arrived, as one that begins at the target is by no step.
   void arrive() noexcept { rounds_.back().arrived = true; }
 
  private:
-  bool known_ineffective(const Step& step);
+  enum class First : std::uint8_t { kNone, kEffective, kIneffective };
+
+  First& first_of(SituationId situation, std::int32_t motion);
+  void widen(std::int32_t motion);
 
   std::vector<RoundTally> rounds_;
   Pose here_;  // the robot's, after the last step
   detail::SituationIndex situations_;
-  detail::SituationIndex mappings_;      // a situation's number and a motion, as one id
-  std::vector<bool> first_ineffective_;  // of each mapping
+  std::size_t width_ = 1;     // motions for which there is room
+  std::vector<First> first_;  // of each mapping: a row of them a situation
+  std::int64_t mappings_ = 0;
 };
 
 }  // namespace devlearn

@@ -76,13 +76,27 @@ TEST_CASE("An ineffective mapping is known from its second execution on, whateve
 
 TEST_CASE("Mappings differ in their situation or in their motion, however large these are") {
   const SituationId far = INT64_MAX;
-  const int last = INT32_MAX;
+  const int last = 65534;
   const RoundTally round =
       counted({step_of(0, 0), step_of(0, last), step_of(far, 0), step_of(far, last),
                step_of(far - 1, last), step_of(0, 1), step_of(far, last)});
   CHECK(round.mappings == 6);
   CHECK(round.known_ineffective == 1);
   CHECK(round.ineffective == 7);
+}
+
+TEST_CASE("What is known of mappings stays where motions of a higher index are met") {
+  std::vector<Step> steps;
+  for (int motion = 0; motion < 100; ++motion) {
+    for (SituationId situation = 0; situation < 5; ++situation) {
+      steps.push_back(step_of(situation, motion, motion % 3 == 0 ? -1.0 : 1.0));
+    }
+  }
+  const std::size_t once = steps.size();
+  for (std::size_t i = 0; i < once; ++i) steps.push_back(steps[i]);
+  const RoundTally round = counted(steps);
+  CHECK(round.mappings == 500);
+  CHECK(round.known_ineffective == 170);
 }
 
 TEST_CASE("Mappings stay known from round to round") {
@@ -251,4 +265,6 @@ TEST_CASE("A record that tells no steps, or tells them wrongly, is refused") {
   Trial(open_world(), {}, 1).run(wrong, 3);
   wrong.motion[1] = -1;
   check_refused([&] { Tally::of(wrong); }, "record.motion[1]", "-1");
+  wrong.motion[1] = 65535;
+  check_refused([&] { Tally::of(wrong); }, "record.motion[1]", "65535");
 }
