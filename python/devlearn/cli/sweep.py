@@ -65,8 +65,10 @@ def _main(options: argparse.Namespace) -> int:
     from ..experiments.sweep import sweep
 
     asked = spec.read(options.file)
-    say(f"{len(asked)} runs: {len(asked.worlds)} worlds, {len(asked.variants)} agents with "
-        f"settings, {len(asked.seeds)} seeds")  # fmt: skip
+    say(
+        f"runs: {len(asked)} (worlds {len(asked.worlds)} x agents with settings "
+        f"{len(asked.variants)} x seeds {len(asked.seeds)})"
+    )
     try:
         results = sweep(asked, options.output, workers=options.workers, scheduler=options.scheduler)
     except KeyboardInterrupt:

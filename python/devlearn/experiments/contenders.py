@@ -58,6 +58,9 @@ def config_of(name: str, settings: Mapping[str, Any], changes: Mapping[str, Any]
     for change in changes:
         if change.startswith("learner."):
             raise InvalidValue("trial", change, f"a setting of {name} in place of it")
+    motions = changes.get("robot.steering_angles")
+    if isinstance(motions, (list, tuple)):
+        changes = {**changes, "learner.motion_count": len(motions)}
     config = changed(config, changes, "trial")
     if name in PRESETS:
         return config.replace(learner=changed(config.learner, settings, f"settings.{name}"))

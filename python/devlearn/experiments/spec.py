@@ -26,7 +26,7 @@ from .job import KEEP, Job, canonical, world_hash
 from .schedule import Schedule
 
 _LARGEST_SEED = 2**63 - 1  # as SQLite holds it
-_MOST_RUNS = 10**8
+_MOST_RUNS = 10**7
 _SCHEDULE = [field.name for field in dataclasses.fields(Schedule)]
 _RANDOM_WORLD = re.compile(r"([a-z_]+):(\d+)(?:-(\d+))?")
 
@@ -179,8 +179,10 @@ def _worlds(name: str, folder: Path) -> Iterator[tuple[str, str]]:
     random = _RANDOM_WORLD.fullmatch(name)
     if random:
         kind, first, last = random[1], int(random[2]), int(random[3] or random[2])
-        if not first <= last <= _LARGEST_SEED or last - first >= _MOST_RUNS:
+        if not first <= last <= _LARGEST_SEED:
             raise InvalidValue("worlds", repr(name), "KIND:FIRST-LAST, FIRST no more than LAST")
+        if last - first >= _MOST_RUNS:
+            raise InvalidValue("worlds", repr(name), f"at most {_MOST_RUNS}")
         for seed in range(first, last + 1):
             yield f"{kind}:{seed}", World.random(kind, seed).to_json()
     elif name in worlds():
@@ -201,8 +203,10 @@ def seeds_of(seeds: object) -> list[int]:
             if not span:
                 raise InvalidValue("seeds", repr(seeds), KEYS["seeds"])
             first, last = int(span[1]), int(span[2] or span[1])
-            if not first <= last <= _LARGEST_SEED or last - first >= _MOST_RUNS:
+            if not first <= last <= _LARGEST_SEED:
                 raise InvalidValue("seeds", repr(seeds), f"in [0, {_LARGEST_SEED}], least first")
+            if last - first >= _MOST_RUNS:
+                raise InvalidValue("seeds", repr(seeds), f"at most {_MOST_RUNS}")
             found += range(first, last + 1)
     else:
         for seed in _list("seeds", seeds):

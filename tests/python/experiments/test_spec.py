@@ -9,6 +9,7 @@ import pytest
 from conftest import refused
 from devlearn import World
 from devlearn.experiments import spec
+from devlearn.experiments.contenders import config_of
 from devlearn.experiments.schedule import Schedule
 
 LEAST = {"worlds": ["paper"], "agents": ["paper"], "seeds": "1"}
@@ -69,6 +70,15 @@ def test_fields_of_the_trial_are_for_all_agents_and_dotted_names_may_be_tables()
     assert [j.trial for j in made] == [{"robot.speed": 0.1, "cell_size": 0.5}] * 2
 
 
+def test_a_robot_with_other_motions_has_learners_of_as_many():
+    angles = [-20.0, 0.0, 20.0]
+    for one in jobs(agents=["paper", "adaptive", "QLearning"],
+                    trial={"robot.steering_angles": [angles]}):  # fmt: skip
+        config = config_of(one.agent, one.settings, one.trial)
+        assert config.robot.steering_angles == angles
+        assert config.learner.motion_count == 3
+
+
 def test_an_agent_may_have_a_schedule_of_its_own():
     made = jobs(
         agents=["paper", "RandomAgent"],
@@ -92,6 +102,7 @@ def test_an_agent_may_have_a_schedule_of_its_own():
         ({"worlds": ["papr"]}, "worlds", "'paper', or another of"),
         ({"worlds": ["missing.json"]}, "missing.json", "no such file"),
         ({"worlds": ["similar:9-3"]}, "worlds", "FIRST no more than LAST"),
+        ({"worlds": ["similar:1-99999999"]}, "worlds", "at most 10000000"),
         ({"worlds": ["simlar:1"]}, "kind", "similar"),
         ({"worlds": ["paper", "paper"]}, "worlds", "each once"),
         ({"worlds": []}, "spec", "0 runs"),
@@ -100,6 +111,7 @@ def test_an_agent_may_have_a_schedule_of_its_own():
         ({"agents": ["json:nothing"]}, "agent", "has no attribute 'nothing'"),
         ({"agents": [3]}, "agents", "a list of names"),
         ({"seeds": "9-1"}, "seeds", "least first"),
+        ({"seeds": "1-99999999"}, "seeds", "at most 10000000"),
         ({"seeds": "1-"}, "seeds", "such as"),
         ({"seeds": 10}, "seeds", "such as"),
         ({"seeds": [1, 1]}, "seeds", "1 twice"),

@@ -217,7 +217,7 @@ def test_the_command_line_runs_a_file_and_tells_of_failures(tmp_path, capsys, mo
     )
     assert cli.main(["sweep", "s.toml", "--workers", "1"]) == 0
     said = capsys.readouterr()
-    assert said.out.startswith("4 runs: 1 worlds, 1 agents with settings, 4 seeds")
+    assert said.out.startswith("runs: 4 (worlds 1 x agents with settings 1 x seeds 4)")
     assert "2 runs failed; the first, run 2:" in said.err and "no motion for seed 2" in said.err
     assert len(Results("results.sqlite")) == 4
 
