@@ -32,7 +32,9 @@ def described(header):
         r"^struct (\w+) \{$(.*?)^\};$", header, re.DOTALL | re.MULTILINE
     ):
         for name, rest in re.findall(
-            r'\bfield\("(\w+)",(.*?)\)(?=,\s*(?:later\()?field|\);)', body, re.DOTALL
+            r'\b(?:row_)?field\("(\w+)",(.*?)\)(?=,\s*(?:later\(|row_)?field|\)?[;}])',
+            body,
+            re.DOTALL,
         ):
             doc = re.findall(r'"((?:[^"]|"\s+")*)"', rest)[-1]
             fields.setdefault(struct, {})[name] = re.sub(r'"\s+"', "", doc)
