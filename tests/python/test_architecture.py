@@ -54,6 +54,7 @@ def test_the_help_of_the_command_line_loads_nothing_that_it_does_not_need():
     assert {name for name in loaded if name.startswith("devlearn.")} == {
         "devlearn.cli",
         "devlearn.cli.reproduce",
+        "devlearn.cli.compare",
         "devlearn.cli.console",
         "devlearn.cli.run",
         "devlearn.cli.sweep",
@@ -147,9 +148,15 @@ ROOMS = {
     "plots": {"analysis"},
     "experiments": set(),
     "paper": {"analysis", "plots", "experiments"},
-    "cli": {"experiments", "paper"},
+    "comparison": {"analysis", "plots", "experiments"},
+    "cli": {"experiments", "paper", "comparison"},
 }
-EXTRAS = {"matplotlib": "plots", "jinja2": "paper", "tqdm": "experiments", "scipy": "experiments"}
+EXTRAS = {
+    "matplotlib": "plots",
+    "jinja2": "_pages.py",
+    "tqdm": "experiments",
+    "scipy": "experiments",
+}
 
 
 @pytest.mark.parametrize("room", ROOMS)

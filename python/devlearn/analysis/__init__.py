@@ -9,11 +9,13 @@ from .episodes import (
     find_window,
 )
 from .fields import PreferenceField, SefField, preference_field, sef_field
+from .ways import WayField
 
 __all__ = [
     "Episode",
     "PreferenceField",
     "SefField",
+    "WayField",
     "counts_before",
     "find_abandonment",
     "find_entry_and_window",

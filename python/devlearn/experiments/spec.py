@@ -113,14 +113,15 @@ def read(spec: Mapping[str, Any] | str | os.PathLike[str]) -> Spec:
         return _of(dict(spec), Path())
     path = Path(path_text(spec))
     try:
-        return _of(_toml(path), path.parent)
+        return _of(toml(path), path.parent)
     except FileError:
         raise
     except InvalidValue as error:
         raise FileError(str(path), error.quantity, error.value, error.allowed) from error
 
 
-def _toml(path: Path) -> dict[str, Any]:
+def toml(path: Path) -> dict[str, Any]:
+    """What a TOML file holds. Raises FileError."""
     try:
         import tomllib
     except ModuleNotFoundError:  # before Python 3.11

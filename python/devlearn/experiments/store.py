@@ -10,6 +10,7 @@ import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
@@ -159,7 +160,11 @@ class Results:
         except ModuleNotFoundError as error:
             raise MissingExtra("Results.to_pandas", "pandas", "experiments") from error
         with self._reading() as connection:
-            frame = pandas.read_sql_query("SELECT * FROM results ORDER BY run", connection)
+            frame = pandas.read_sql_query(
+                "SELECT results.* FROM results JOIN runs r ON r.id = run "
+                "ORDER BY r.world, r.variant, r.seed",
+                connection,
+            )
         for name in MEASURES:
             frame[name] = frame[name].astype(float)
         frame.attrs["provenance"] = self.meta
@@ -298,6 +303,8 @@ class Store:
             for name, text in self._spec.worlds.items()
         }
         self._variants: dict[str, int] = {}
+        for job in islice(self._spec.jobs(), len(self._spec.variants)):
+            self._variant(job)  # in the spec's order, whichever is finished first
         execute("COMMIT")
         self._found = {
             (world, variant, seed): (set(json.loads(own)), rounds, record)

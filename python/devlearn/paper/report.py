@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..errors import MissingExtra
+from .. import _pages
 from ..record import written_aside
 from . import schedule
 from .claims import Verdict
 from .figures import Drawn
-
-try:
-    import jinja2
-except ModuleNotFoundError as error:
-    raise MissingExtra("devlearn.paper.report", "jinja2", "experiments") from error
 
 
 def write_report(
@@ -38,16 +32,9 @@ def write_report(
     """
 
     def data_uri(figure: Drawn) -> str:
-        picture = (path.parent / "figures" / f"{figure.name}.png").read_bytes()
-        return "data:image/png;base64," + base64.b64encode(picture).decode()
+        return _pages.data_uri((path.parent / "figures" / f"{figure.name}.png").read_bytes())
 
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    environment = _pages.environment(Path(__file__).parent)
     environment.filters |= {
         "data_uri": data_uri,
         "width": lambda figure: round(figure.figure.get_figwidth() * 120),

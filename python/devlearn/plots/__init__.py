@@ -36,9 +36,13 @@ from ..analysis import (
     find_window,
     preference_field,
 )
+from .bands import Band, plot_bands
+from .cells import plot_cells
 from .counts import plot_counts
 from .distribution import plot_distribution
 from .episodes import plot_episodes
+from .intervals import plot_intervals
+from .looks import Look, look
 from .panels import save
 from .path import plot_trajectory
 from .preferences import plot_preferences
@@ -49,16 +53,22 @@ from .world import plot_world
 
 __all__ = [
     "STYLE",
+    "Band",
     "Episode",
+    "Look",
     "PreferenceField",
     "counts_before",
     "find_abandonment",
     "find_entry_and_window",
     "find_episodes",
     "find_window",
+    "look",
+    "plot_bands",
+    "plot_cells",
     "plot_counts",
     "plot_distribution",
     "plot_episodes",
+    "plot_intervals",
     "plot_preferences",
     "plot_rounds",
     "plot_sef",

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import io
 import os
 from collections.abc import Sequence
 from typing import IO, Any
 
 import matplotlib as mpl
-from matplotlib.axes import Axes
+from matplotlib.axes import Axes as Axes
 from matplotlib.figure import Figure as Figure
 from matplotlib.figure import SubFigure
 
@@ -55,11 +56,23 @@ def save(axes: Axes, path: str | os.PathLike[str]) -> None:
     kind = name.rpartition(".")[2].lower()
     if kind not in ("png", "svg", "pdf"):
         raise InvalidValue("path", repr(name), "a name that ends in .png, .svg or .pdf")
+    with written_aside(path, "wb") as file:
+        write_picture(figure_of(axes), file, kind, os.path.basename(name))
+
+
+def figure_of(axes: Axes) -> Figure:
+    """The whole figure that these axes are in."""
     figure = axes.figure
     while isinstance(figure, SubFigure):
         figure = figure.figure
-    with written_aside(path, "wb") as file:
-        write_picture(figure, file, kind, os.path.basename(name))
+    return figure
+
+
+def png(axes: Axes) -> bytes:
+    """The figure that these axes are in, as a PNG file has it."""
+    content = io.BytesIO()
+    write_picture(figure_of(axes), content, "png", "")
+    return content.getvalue()
 
 
 def write_picture(figure: Figure, file: IO[bytes], kind: str, name: str) -> None:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 import matplotlib as mpl
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import ListedColormap, LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from matplotlib.transforms import ScaledTranslation
 
 from .._calls import shown
@@ -29,6 +29,7 @@ GREEN = "#009E73"
 BLUE = "#0072B2"
 VERMILLION = "#D55E00"
 PURPLE = "#CC79A7"
+SKY = "#56B4E9"
 GREY = "#7F7F7F"
 INK = "#222222"
 OBSTACLE = "#A9CBE6"  # the paper's blue, light enough to draw over
@@ -138,6 +139,8 @@ def colorbar_beside(ax: Axes, colours: Any, label: str, extend: str = "neither")
     """Beside the axes and as high as they are."""
     beside = ax.inset_axes((1.03, 0.0, 0.045, 1.0))
     bar = ax.figure.colorbar(colours, cax=beside, label=label, extend=extend)
+    if isinstance(colours.norm, LogNorm):
+        logarithmic(bar.ax.yaxis)
     bar.outline.set_linewidth(0.4)
 
 
@@ -151,6 +154,33 @@ def say_nothing(ax: Axes, what: str) -> None:
 def thousands(count: int) -> str:
     """A number with its thousands apart."""
     return f"{count:,}".replace(",", "\u2009")
+
+
+def logarithmic(axis: Axis) -> None:
+    """A logarithmic axis with plain numbers at its ticks: 2, 50, 10 k, 1 M."""
+    axis.axes.set(**{f"{axis.axis_name}scale": "log"})  # type: ignore[attr-defined]
+    axis.set_major_locator(_LogLocator())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: _short(value)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+class _LogLocator(LogLocator):
+    """Powers of ten; where there are less than two of them, 2 and 5 as well."""
+
+    def __init__(self) -> None:
+        super().__init__(numticks=9)
+
+    def tick_values(self, vmin: float, vmax: float) -> Any:
+        few = vmax < 100 * max(vmin, 1e-300)
+        self.set_params(subs=(1.0, 2.0, 5.0) if few else (1.0,))
+        return super().tick_values(vmin, vmax)
+
+
+def _short(value: float) -> str:
+    for size, unit in ((1e6, " M"), (1e3, " k")):
+        if abs(value) >= size:
+            return f"{value / size:.3g}{unit}"
+    return f"{value:.3g}"
 
 
 def whole_numbers(*axes: Axis) -> None:

@@ -54,6 +54,14 @@ def test_every_run_is_one_row_that_says_what_it_was(small):
     assert frame["error"].isna().all()
 
 
+def test_rows_are_in_the_order_of_the_spec_whichever_was_finished_first(small):
+    frame = small.to_pandas()
+    agents = ("paper", "QLearning alpha=0.2", "QLearning alpha=0.5")
+    assert [*zip(frame["world"], frame["label"], frame["seed"])] == [
+        (world, label, seed) for world in ("paper", "empty") for label in agents for seed in (1, 2)
+    ]
+
+
 def test_a_row_s_values_are_those_of_the_run_made_again(small):
     frame = small.to_pandas().set_index("run")
     for run, row in frame.iterrows():
@@ -85,7 +93,7 @@ def test_what_was_not_kept_is_refused_by_the_run(tmp_path):
 
 def test_plain_sql_reads_the_same(small):
     rows = of_sql(small.path, "SELECT world, label, seed, steps FROM results ORDER BY run")
-    frame = small.to_pandas()
+    frame = small.to_pandas().sort_values("run")
     assert rows == [*zip(frame["world"], frame["label"], frame["seed"], frame["steps"])]
 
 
