@@ -23,91 +23,69 @@ longer changes for at least 20 rounds, and the last path is the habit's.
 from __future__ import annotations
 
 import json
+import math
 import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from devlearn import AdaptiveConfig, Robot, Trial, TrialConfig, World, shortest_path, worlds
-from devlearn.experiments.runs import Journal, run_all
+from devlearn import Results, Trial, sweep, worlds
+from devlearn.experiments.measures import Run
+from devlearn.experiments.spec import Spec, read
 
-ROUNDS, LIMIT, LATE, SAME, FREE, HOPELESS = 600, 10_000, 20, 20, 10_000, 20
-FORMS = {
-    "first part": AdaptiveConfig(refine=False),
-    "defaults": AdaptiveConfig(),
-    "curious": AdaptiveConfig(curious_every=10),
-    "paper": None,
-}
+ROUNDS, LIMIT, LATE, SAME, FIRST_SEED = 600, 10_000, 20, 20, 100
 MOST = {"clutter": 1.08, "slalom": 1.11}
+NAMES = [*worlds(), *(f"similar:{i}" for i in range(20, 40))]
 
 
-def world_of(name: str) -> World:
-    """One that ships, or similar:SEED."""
-    kind, _, seed = name.partition(":")
-    return World.random(kind, int(seed)) if seed else World.load(name)
+def forms(seeds: int) -> dict[str, Spec]:
+    """What is run, by form."""
+    numbers = f"{FIRST_SEED}-{FIRST_SEED + seeds - 1}"
+    common = {"worlds": NAMES, "seeds": numbers, "rounds": ROUNDS, "step_limit": LIMIT,
+              "keep": "rounds"}  # fmt: skip
 
+    def adaptive(**settings: Any) -> dict[str, Any]:
+        alone = {"free": [], "hopeless": 0, "agents": ["adaptive"]}
+        return {**common, **alone, "settings": {"adaptive": settings}}
 
-def run(job: dict[str, Any]) -> dict[str, Any]:
-    """One run's measures."""
-    world, form = world_of(job["world"]), FORMS[job["form"]]
-    if form is None:
-        return _run_paper(world, job["seed"])
-    trial = Trial(world, TrialConfig.adaptive().replace(learner=form), seed=job["seed"])
-    learner: Any = trial.learner
-    habits: list[float | None] = []
-    steps, failed, first = [], [], None
-    touched = 0
-    tail = []
-    for number in range(1, ROUNDS + 1):
-        record = trial.path_learning(rounds=1, step_limit=LIMIT)
-        steps.append(len(record))
-        if not record.rounds["arrived"][0]:
-            failed.append(number)
-        elif first is None:
-            first = sum(steps)
-        habits.append(learner.habit_cost)
-        tail.append(record.motion.tobytes())
-        touched = int(record.collided.sum())
-    if form.curious_every:
-        changed = [i for i in range(1, ROUNDS) if habits[i] != habits[i - 1]]
-        settled = changed[-1] + 1 if changed and changed[-1] < ROUNDS - SAME else None
-        last = int(np.median(steps[-5 * SAME :]))
-    else:
-        same = 1
-        while same < ROUNDS and tail[-1 - same] == tail[-1]:
-            same += 1
-        settled = ROUNDS + 1 - same if same >= SAME else None
-        last = steps[-1]
     return {
-        "last": last,
-        "settled": settled,
-        "failed": failed,
-        "total": sum(steps),
-        "first": first,
-        "touching": touched / max(1, steps[-1]),
-        "situations": learner.situations_experienced,
-        "outcomes": learner.outcomes,
+        "first part": read(adaptive(refine=False)),
+        "defaults": read(adaptive()),
+        "curious": read({**adaptive(curious_every=10), "measures": ["adaptive_quality:habit"]}),
+        "paper": read({**common, "agents": ["paper"]}),
     }
 
 
-def _run_paper(world: World, seed: int) -> dict[str, Any]:
-    trial = Trial(world, seed=seed)
-    for _ in range(2):
-        trial.free_learning(FREE, rounds_only=True)
-    steps, failed = [], []
-    record: Any = None
-    while len(steps) < ROUNDS and failed[-HOPELESS:] != list(
-        range(len(steps) - HOPELESS + 1, len(steps) + 1)
-    ):
-        record = trial.path_learning(rounds=1, step_limit=LIMIT)
-        steps.append(len(record))
-        if not record.rounds["arrived"][0]:
-            failed.append(len(steps))
+def habit(run: Run) -> int | None:
+    """From which round on the habit no longer changed; None where it still did."""
+    trial = Trial(run.trial.world, run.trial.config, run.trial.seed)  # once more, to look at it
+    learner: Any = trial.learner
+    costs = []
+    for _ in range(ROUNDS):
+        trial.path_learning(1, LIMIT, rounds_only=True)
+        costs.append(learner.habit_cost)
+    changed = [i for i in range(1, ROUNDS) if costs[i] != costs[i - 1]]
+    return changed[-1] + 1 if changed and changed[-1] < ROUNDS - SAME else None
+
+
+def measured(row: dict[str, Any], rounds: Any, form: str) -> dict[str, Any]:
+    """What the criteria need of a run."""
+    paths = rounds[len(json.loads(row["schedule"])["free"]) :]
+    failed = (np.flatnonzero(~paths["arrived"]) + 1).tolist()
+    last = paths[-1]
+    if form == "paper":
+        solved = len(paths) == ROUNDS and not any(n > ROUNDS - LATE for n in failed)
+        return {"last": int(last["steps"]), "solved": solved, "failed": failed,
+                "total": int(row["steps"])}  # fmt: skip
+    settled = row["adaptive_quality:habit"] if form == "curious" else row["settled_round"]
+    steps = np.median(paths["steps"][-5 * SAME :]) if form == "curious" else last["steps"]
     return {
-        "last": steps[-1],
-        "solved": len(steps) == ROUNDS and not any(n > ROUNDS - LATE for n in failed),
+        "last": int(steps),
+        "settled": None if settled in (None, math.inf) else int(settled),
         "failed": failed,
-        "total": 2 * FREE + sum(steps),
+        "total": int(row["steps"]),
+        "first": row["first_arrival"],
+        "touching": int(last["touches"]) / max(1, int(last["steps"])),
     }
 
 
@@ -170,27 +148,19 @@ def main() -> None:
     folder = Path(sys.argv[1])
     seeds = int(sys.argv[2]) if len(sys.argv) > 2 else 100
     workers = int(sys.argv[3]) if len(sys.argv) > 3 else 1
-    folder.mkdir(parents=True, exist_ok=True)
-    names = [*worlds(), *(f"similar:{i}" for i in range(20, 40))]
-    jobs = [
-        {"world": name, "form": form, "seed": seed}
-        for name in names
-        for form in FORMS
-        for seed in range(100, 100 + seeds)
-    ]
-    journal = Journal(folder / "adaptive_quality.jsonl")
-    made = run_all(run, jobs, journal, workers=workers, what="adaptive quality")
-    journal.close()
-    results: dict[tuple[str, str], list[dict[str, Any]]] = {}
-    for job, measures in zip(jobs, made):
-        results.setdefault((job["world"], job["form"]), []).append(measures)
-        if measures.get("settled", 0) is None or any(n > LATE for n in measures["failed"][:30]):
-            if job["form"] == "defaults":
-                print("exception:", json.dumps(job), json.dumps(measures))
-    shortest = {
-        name: shortest_path(Robot(world_of(name)), goal_radius=TrialConfig().goal_radius).steps
-        for name in names
+    asked = forms(seeds)
+    file: Results = sweep([*asked.values()], folder / "adaptive_quality.sqlite", workers=workers)
+    results: dict[tuple[str, str], list[dict[str, Any]]] = {
+        (name, form): [] for name in NAMES for form in asked
     }
+    shortest = {}
+    for form, spec in asked.items():
+        for row in file.rows(spec.jobs()):
+            run = measured(row, file.rounds(row["run"]), form)
+            results[row["world"], form].append(run)
+            shortest[row["world"]] = row["shortest"]
+            if form == "defaults" and (run["settled"] is None or run["failed"][-1:] > [LATE]):
+                print("exception:", row["world"], row["seed"], json.dumps(run))
     sys.exit(0 if table(results, shortest) else 1)
 
 

@@ -83,5 +83,10 @@ def nothing(run):
     return None
 
 
+def threads(run):
+    """How many threads linear algebra may take where it is measured."""
+    return {"threads": os.environ.get("OMP_NUM_THREADS")}
+
+
 def wrong(run):
     return np.zeros

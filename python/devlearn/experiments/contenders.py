@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import inspect
 import sys
 from collections.abc import Callable, Mapping
@@ -104,9 +105,9 @@ def of_module(quantity: str, name: str) -> Callable[..., Any]:
     module, _, attribute = name.partition(":")
     if not module or not attribute:
         raise unknown(quantity, name, (*NAMES, "module:Class") if quantity == "agent" else ())
-    if "" not in sys.path:  # as `python -c` has it; the program's own folder is there else
-        sys.path.insert(0, "")
     try:
+        if "" not in sys.path and importlib.util.find_spec(module.partition(".")[0]) is None:
+            sys.path.insert(0, "")  # as `python -c` has it; the program's own folder is there else
         found: Any = importlib.import_module(module)
         for part in attribute.split("."):
             found = getattr(found, part)

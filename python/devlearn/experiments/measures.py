@@ -95,12 +95,20 @@ def settled_round(run: Run, least: int = LAST) -> float:
 
     inf where the last ``least`` did not. A run that ended early, without hope, has not settled.
     """
-    paths = run.paths
-    if len(paths) < run.schedule.rounds or not len(paths):
-        return math.inf
+    settled = settled_from(run.paths, least) if len(run.paths) == run.schedule.rounds else None
+    return math.inf if settled is None else settled + 1
+
+
+def settled_from(paths: npt.NDArray[np.void], least: int) -> int | None:
+    """Which of these rounds, from 0, is the first from which on all arrive by the same motions.
+
+    None where the last ``least`` did not.
+    """
+    if not len(paths):
+        return None
     other = np.flatnonzero((paths["path"] != paths["path"][-1]) | ~paths["arrived"])
     first = int(other[-1]) + 1 if len(other) else 0
-    return first + 1 if len(paths) - first >= least else math.inf
+    return first if len(paths) - first >= least else None
 
 
 def settled_ratio(run: Run) -> float | None:

@@ -103,6 +103,45 @@ class Spec:
                 keep=self.keep,
             )
 
+    def one_of_each(self) -> Iterator[Job]:
+        """A run of each variant, in their order."""
+        return itertools.islice(self.jobs(), len(self.variants))
+
+
+class Together:
+    """Several sweeps in one: each run once, with all that any of them asks of it."""
+
+    def __init__(self, specs: Sequence[Spec]) -> None:
+        """Raises InvalidValue for two worlds of one name."""
+        self._specs = specs
+        self.values = [spec.values for spec in specs]
+        self.measures = [*dict.fromkeys(name for spec in specs for name in spec.measures)]
+        self.worlds: dict[str, str] = {}
+        for name, text in (world for spec in specs for world in spec.worlds.items()):
+            if self.worlds.setdefault(name, text) != text:
+                raise InvalidValue("worlds", repr(name), "one world of that name in all of them")
+        self._jobs: dict[tuple[str, str, int], Job] = {}
+        for job in (job for spec in specs for job in spec.jobs()):
+            place = job.world, canonical(job.variant()), job.seed
+            known = self._jobs.setdefault(place, job)
+            self._jobs[place] = dataclasses.replace(
+                known,
+                measures=tuple(dict.fromkeys(known.measures + job.measures)),
+                keep=max(known.keep, job.keep, key=KEEP.index),
+            )
+
+    def __len__(self) -> int:
+        """How many runs."""
+        return len(self._jobs)
+
+    def jobs(self) -> Iterator[Job]:
+        """The runs, one sweep after the other."""
+        return iter(self._jobs.values())
+
+    def one_of_each(self) -> Iterator[Job]:
+        """A run of each variant, in the order of the sweeps."""
+        return itertools.chain.from_iterable(spec.one_of_each() for spec in self._specs)
+
 
 def read(spec: Mapping[str, Any] | str | os.PathLike[str]) -> Spec:
     """A spec from a dict, or from a TOML file, whose folder its world files are looked for in.

@@ -10,7 +10,6 @@ import os
 import sqlite3
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
@@ -26,7 +25,7 @@ from ..record import Record
 from .job import Job, Row, canonical, unpacked, world_hash
 from .measures import MEASURES
 from .schedule import Schedule
-from .spec import Spec
+from .spec import Spec, Together
 
 if TYPE_CHECKING:
     import pandas
@@ -60,6 +59,17 @@ _COMMAND = (
     "'{' || w.quoted || ',' || v.quoted || ',\"seed\":' || r.seed || ',\"measures\":' || r.own"
     " || '}', '''', '''\"''\"''') || ''''"
 )
+
+
+_ROWS = (
+    "SELECT s.*, w.hash, v.quoted FROM results s JOIN runs r ON r.id = s.run "
+    "JOIN worlds w ON w.id = r.world JOIN variants v ON v.id = r.variant"
+)
+
+
+def _quoted(job: Job) -> str:
+    """A variant as it is found, and as a command has it."""
+    return canonical(job.variant())[1:-1]
 
 
 @contextmanager
@@ -141,6 +151,11 @@ class Results:
         return dict(self._all("SELECT name, value FROM meta"))
 
     @property
+    def current(self) -> bool:
+        """Whether it is of this version of devlearn, so that a sweep may go on with it."""
+        return self.meta.get("code", code_version()) == code_version()
+
+    @property
     def measures(self) -> list[str]:
         """The names of the measures, those of one's own among them."""
         with self._reading() as connection:
@@ -169,6 +184,33 @@ class Results:
             frame[name] = frame[name].astype(float)
         frame.attrs["provenance"] = self.meta
         return frame
+
+    def rows(self, jobs: Iterable[Job]) -> list[dict[str, Any]]:
+        """The row of each of these runs, by the names of the columns of `to_pandas`.
+
+        Measures of one's own are what they gave. Raises InvalidValue for a run that is not there.
+        """
+        with self._reading() as connection:
+            connection.row_factory = sqlite3.Row
+            rows = [dict(row) for row in connection.execute(_ROWS)]
+            own = [name for name in _columns(connection) if name not in MEASURES]
+        found = {(r["world"], r.pop("hash"), r.pop("quoted"), r["seed"]): r for r in rows}
+        asked = []
+        for job in jobs:
+            place = job.world, world_hash(job.world_json), _quoted(job), job.seed
+            if place not in found:
+                told = f"{job.label}, seed {job.seed}, in {job.world}"
+                raise InvalidValue("run", told, f"one of the {len(found)} in {self.path}")
+            row = dict(found[place])
+            row |= {name: json.loads(row[name]) for name in own if isinstance(row[name], str)}
+            asked.append(row)
+        return asked
+
+    def check(self) -> None:
+        """Reads all of the file. Raises FileError where it is damaged."""
+        for [told] in self._all("PRAGMA quick_check(1)"):
+            if told != "ok":
+                raise FileError(str(self.path), "", told, f"{WANTED}, undamaged")
 
     @property
     def failed(self) -> list[tuple[int, str]]:
@@ -217,6 +259,21 @@ class Results:
             yield connection
 
 
+_BESIDE = ("-wal", "-shm")
+
+
+def set_aside(path: Path, end: str) -> Path:
+    """Renames results, with what SQLite keeps beside them; returns their new name."""
+    aside = path.with_name(path.name + end)
+    for beside in (*_BESIDE, ""):
+        file, to = (p.with_name(p.name + beside) for p in (path, aside))
+        if file.exists():
+            os.replace(file, to)
+        else:
+            to.unlink(missing_ok=True)
+    return aside
+
+
 class Store:
     """The one writer of results: a context. Each finished run is kept at once.
 
@@ -224,7 +281,7 @@ class Store:
     """
 
     def __init__(
-        self, path: str | os.PathLike[str], spec: Spec, *, retry_failed: bool = False
+        self, path: str | os.PathLike[str], spec: Spec | Together, *, retry_failed: bool = False
     ) -> None:
         """Makes the file, or goes on with it; ``retry_failed``: runs that failed are missing.
 
@@ -269,6 +326,9 @@ class Store:
                 connection.executescript(f"BEGIN; {_TABLES} COMMIT;")
             finally:
                 connection.close()
+        # A log that some other file of this name left behind would be taken for this one's.
+        for beside in _BESIDE:
+            self.path.with_name(self.path.name + beside).unlink(missing_ok=True)
         os.replace(aside, self.path)
 
     def _begin(self) -> None:
@@ -303,7 +363,7 @@ class Store:
             for name, text in self._spec.worlds.items()
         }
         self._variants: dict[str, int] = {}
-        for job in islice(self._spec.jobs(), len(self._spec.variants)):
+        for job in self._spec.one_of_each():
             self._variant(job)  # in the spec's order, whichever is finished first
         execute("COMMIT")
         self._found = {
@@ -338,7 +398,7 @@ class Store:
         return int(found.fetchone()[0])
 
     def _variant(self, job: Job) -> int:
-        quoted = canonical(job.variant())[1:-1]
+        quoted = _quoted(job)
         if quoted not in self._variants:
             self._variants[quoted] = self._id(
                 "variants",

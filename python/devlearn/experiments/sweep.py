@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
-from typing import Any
+from typing import Any, Union
 
 from .._calls import path_text, shown
 from .._files import made_folder
@@ -23,8 +23,11 @@ except ModuleNotFoundError as error:
 _MOST_WORKERS = 4096
 
 
+Asked = Union[Mapping[str, Any], str, "os.PathLike[str]", specs.Spec]
+
+
 def sweep(
-    spec: Mapping[str, Any] | str | os.PathLike[str] | specs.Spec,
+    spec: Asked | Sequence[Asked] | specs.Together,
     output: str | os.PathLike[str],
     *,
     workers: int | None = None,
@@ -35,8 +38,9 @@ def sweep(
 ) -> Results:
     """Run worlds x agents x settings x seeds, and keep what each run came to in ``output``.
 
-    ``spec`` is a dict, or a TOML file, as docs/sweeps.md tells. Runs that are in the file are not
-    made again: stopped, the same call goes on. Each run is the same wherever it is made.
+    ``spec`` is a dict, or a TOML file, as docs/sweeps.md tells, or a list of several. Runs that are
+    in the file are not made again: stopped, the same call goes on. Each run is the same wherever it
+    is made.
 
     Parameters: workers, processes of this machine (None: one a core; 1: this process alone);
     scheduler, the address of a Dask cluster in place of them, or executor, any of
@@ -47,7 +51,7 @@ def sweep(
     KeyboardInterrupt; what is finished is kept. Raises InvalidValue for what the spec cannot mean,
     FileError for a file that is none, is damaged, is in use by another, or cannot be written.
     """
-    asked = spec if isinstance(spec, specs.Spec) else specs.read(spec)
+    asked = _asked(spec)
     path = Path(path_text(output))
     if path.is_dir() or not path.name:
         raise InvalidValue("output", str(path), "a file, such as results.sqlite")
@@ -65,6 +69,15 @@ def sweep(
             pool = _pool(workers, scheduler, executor, missing)
             run_all(store.missing(asked.jobs()), missing, pool, keep)
     return Results(path)
+
+
+def _asked(spec: Asked | Sequence[Asked] | specs.Together) -> specs.Spec | specs.Together:
+    if isinstance(spec, (specs.Spec, specs.Together)):
+        return spec
+    if isinstance(spec, Sequence) and not isinstance(spec, str):
+        each = [one if isinstance(one, specs.Spec) else specs.read(one) for one in spec]
+        return specs.Together(each)
+    return specs.read(spec)
 
 
 def _pool(

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from .._core import Trial, TrialConfig, World
-from ..experiments import contenders
+from ..experiments import store
+from ..experiments.measures import settled_from
 from ..experiments.schedule import Schedule
+from ..experiments.spec import Spec, read
 from ..plots.panels import panels, shared_legend
 from ..plots.style import BLACK, BLUE, VERMILLION, styled
-from ..record import Record
-from . import measures, places, schedule
+from . import measures, schedule
 from .figures import Drawn
 from .measures import Measures
 
@@ -27,52 +26,42 @@ def schedules() -> dict[str, Schedule]:
     return {"paper": schedule.SECTION_VI, "adaptive": schedule.SECTION_VI.replace(free=())}
 
 
-def planned(worlds: Sequence[str], seeds: Sequence[int]) -> list[dict[str, Any]]:
-    """The runs, as plain values."""
-    return [
-        {
-            "beyond": True,
-            "world": World.load(world).to_json(),
-            "config": contenders.preset(name).to_dict(),
-            "seed": seed,
-            "schedule": plan.to_dict(),
-        }
-        for world in worlds
-        for name, plan in schedules().items()
-        for seed in seeds
-    ]
-
-
-def execute(job: Mapping[str, Any]) -> Measures:
-    """Makes a run: steps of its rounds of path learning, and what became of them."""
-    config = TrialConfig.from_dict(job["config"])
-    trial = Trial(World.from_json(job["world"]), config, job["seed"])
-    plan = Schedule(**job["schedule"])
-    whole = Record.concatenate([*plan.parts(trial)])
-    paths = whole.part(slice(len(plan.free), None))
-    arrived = paths.rounds["arrived"]
-    settled = measures.settled_round(paths)
+def planned(worlds: Sequence[str], seeds: Sequence[int]) -> dict[str, Spec]:
+    """The sweep of each preset."""
     return {
-        "steps": paths.rounds["steps"].tolist(),
-        "arrived": arrived.tolist(),
-        "settled": None if settled is None else settled - len(plan.free),
-        "total": len(whole),
-    }
+        preset: read(
+            {**plan.to_dict(), "worlds": [*worlds], "agents": [preset], "seeds": [*seeds],
+             "keep": "rounds"}
+        )
+        for preset, plan in schedules().items()
+    }  # fmt: skip
 
 
-def by_world(
-    worlds: Sequence[str], seeds: Sequence[int], runs: Sequence[Measures]
-) -> dict[str, dict[str, list[Measures]]]:
-    """Runs by world and preset, in the order in which they were planned."""
-    found = iter(runs)
+def results(
+    plan: Mapping[str, Spec], file: store.Results
+) -> tuple[dict[str, dict[str, list[Measures]]], dict[str, int]]:
+    """What came of the runs, by world and preset, and the steps of each world's shortest path."""
+    found: dict[str, dict[str, list[Measures]]] = {}
+    shortest = {}
+    for preset, spec in plan.items():
+        for row in file.rows(spec.jobs()):
+            rounds = file.rounds(row["run"])
+            measured = measure(rounds, len(schedules()[preset].free))
+            found.setdefault(row["world"], {}).setdefault(preset, []).append(measured)
+            shortest[row["world"]] = row["shortest"]
+    return found, shortest
+
+
+def measure(rounds: npt.NDArray[np.void], frees: int) -> Measures:
+    """Steps of the rounds of path learning, and what became of them."""
+    paths = rounds[frees:]
+    settled = settled_from(paths, measures.SETTLED_ROUNDS)
     return {
-        name: {preset: [next(found) for _ in seeds] for preset in schedules()} for name in worlds
+        "steps": paths["steps"].tolist(),
+        "arrived": paths["arrived"].tolist(),
+        "settled": None if settled is None else settled + 1,
+        "total": int(rounds["steps"].sum()),
     }
-
-
-def shortest_of(worlds: Sequence[str]) -> dict[str, int]:
-    """Steps of the shortest path in each."""
-    return {name: places.shortest(World.load(name), TrialConfig.paper()) for name in worlds}
 
 
 def _rounds(run: Measures, count: int, limit: int) -> npt.NDArray[np.float64]:

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._core import Event, Kind
+from .._core import Kind, Tally
+from ..experiments.measures import settled_from
 from ..record import Record
 
 Measures = dict[str, Any]  # of one run, by name
@@ -44,31 +45,23 @@ def change_after(counts: npt.NDArray[np.int64], step: int) -> float:
     return abs(last - int(counts[step - 1])) / last if last else 0.0
 
 
-def motions_by_round(record: Record) -> list[bytes]:
-    """The motions of each round, as comparable values."""
-    offsets = record.offsets().tolist()
-    return [record.motion[i:j].tobytes() for i, j in zip(offsets, offsets[1:])]
-
-
 def settled_round(record: Record, least: int = SETTLED_ROUNDS) -> int | None:
     """Number of the round from which to the last, at least ``least``, all motions are the same.
 
     None where the run has not settled, or its last round never arrived.
     """
-    rounds = motions_by_round(record)
-    if not rounds or not record.rounds["arrived"][-1]:
-        return None
-    same = 1
-    while same < len(rounds) and rounds[-1 - same] == rounds[-1]:
-        same += 1
-    return int(record.rounds["round"][-same]) if same >= least else None
+    settled = settled_from(Tally.of(record).rounds, least)
+    return None if settled is None else int(record.rounds["round"][settled])
+
+
+def path_name(record: Record) -> str:
+    """A short name of the last round's path: equal for equal motions."""
+    return hashlib.sha256(record.motion[record.steps_of(-1)].tobytes()).hexdigest()[:12]
 
 
 def habit(record: Record) -> str | None:
-    """A short name of the path on which a run settled: equal for equal motions."""
-    if settled_round(record) is None:
-        return None
-    return hashlib.sha256(motions_by_round(record)[-1]).hexdigest()[:12]
+    """That of the path on which a run settled."""
+    return None if settled_round(record) is None else path_name(record)
 
 
 def late_increases(record: Record) -> dict[str, list[int]]:
@@ -100,16 +93,6 @@ def repeated_explorations(records: Sequence[Record]) -> int:
     return len(explored) - len(np.unique(explored))
 
 
-def known_ineffective(records: Sequence[Record]) -> npt.NDArray[np.bool_]:
-    """Steps that execute a mapping whose first execution proved ineffective, that one left out."""
-    tried = mappings(records)
-    _, first, which = np.unique(tried, return_index=True, return_inverse=True)
-    smf = np.concatenate([record.smf_used for record in records])
-    again = (smf[first] < 0)[which.reshape(-1)]
-    again[first] = False
-    return again
-
-
 def share(hits: npt.NDArray[np.bool_]) -> float:
     """Share of True; 0 of none."""
     return float(np.mean(hits)) if len(hits) else 0.0
@@ -120,11 +103,3 @@ def exploited_ineffective(records: Sequence[Record]) -> float:
     smf = np.concatenate([record.smf_used for record in records])
     exploited = np.concatenate([record.kind for record in records]) == Kind.EXPLOIT
     return share(smf[exploited] < 0)
-
-
-def computing_waste(records: Sequence[Record]) -> float:
-    """Share of updates of orientations that follow a mapping which turned out ineffective."""
-    smf = np.concatenate([record.smf_used for record in records])
-    event = np.concatenate([record.event for record in records])
-    updates = np.isin(event, [Event.EXTENSION, Event.ORIENTATION, Event.ABANDONMENT])
-    return share(smf[updates] < 0)

@@ -5,24 +5,25 @@ from __future__ import annotations
 import json
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from .. import _core
 from .._files import owned_folder
 from .._worlds import worlds
-from ..errors import InvalidValue
-from ..experiments.contenders import preset
-from ..experiments.runs import Journal, run_all
+from ..errors import FileError, InvalidValue
+from ..experiments import store
+from ..experiments.spec import Together
+from ..experiments.sweep import sweep
 from ..record import provenance_of, written_aside
-from . import beyond, figures, jobs, places, schedule
+from . import beyond, figures, schedule, sweeps
 from .claims import Results, Verdict, judge
 from .figures import save_figure
 from .measures import Measures
 from .report import write_report
 from .tables import summarise, table_1, verdict_as_values, without_nan, write_csv
 
+RUNS = "runs.sqlite"
 Say = Callable[[str], None]
 
 
@@ -35,9 +36,10 @@ def reproduce(
 ) -> dict[str, list[Verdict]]:
     """Run section VI over ``seeds`` seeds and write figures, tables, numbers and report.html.
 
-    What is finished is kept in ``runs.jsonl``: stopped, it goes on from there. Returns the verdicts
-    by preset. Raises InvalidValue for seeds outside 1 ... 1000, FileError where it cannot write or
-    another process does.
+    What is finished is kept in ``runs.sqlite``, the results of a sweep: stopped, it goes on from
+    there. Such a file of other code, or damaged, is moved aside, and all is run again. Returns the
+    verdicts by preset. Raises InvalidValue for seeds outside 1 ... 1000, FileError where it cannot
+    write or another process does.
     """
     if not 1 <= seeds <= 1000:
         raise InvalidValue("seeds", seeds, "a whole number in [1, 1000]")
@@ -48,14 +50,7 @@ def reproduce(
 def _reproduce(folder: Path, seeds: int, workers: int | None, say: Say) -> dict[str, list[Verdict]]:
     began = time.monotonic()
     world = _core.World.load("paper")
-    journal = Journal(folder / "runs.jsonl")
-    if journal.damaged:
-        say(f"{journal.damaged} damaged entries of runs.jsonl are run again")
-    try:
-        results = _run(world, range(1, seeds + 1), journal, workers, say)
-        everywhere, shortest = _run_beyond(seeds, journal, workers, say)
-    finally:
-        journal.close()
+    results, everywhere, shortest = _run(folder / RUNS, seeds, workers, say)
     verdicts = {name: judge(result) for name, result in results.items()}
 
     say("drawing the figures")
@@ -108,71 +103,34 @@ def _reproduce(folder: Path, seeds: int, workers: int | None, say: Say) -> dict[
 
 
 def _run(
-    world: _core.World, seeds: Sequence[int], journal: Journal, workers: int | None, say: Say
-) -> dict[str, Results]:
-    similar = [_core.World.random("similar", seed) for seed in seeds]
-
-    def measured(planned: list[dict[str, Any]], what: str) -> list[Measures]:
-        say(f"{what}: {len(planned)} runs")
-        return run_all(jobs.execute, planned, journal, workers=workers, what=what)
-
-    results = {}
-    for name in schedule.READINGS:
-        config = preset(name)
-        starts = places.new_starts(world, config)
-        shortest = places.shortest(world, config)
-
-        def planned(
-            config: _core.TrialConfig,
-            seeds: Sequence[int],
-            shortest: int = shortest,
-            **more: Any,
-        ) -> list[dict[str, Any]]:
-            return [jobs.job(world, config, s, shortest=shortest, **more) for s in seeds]
-
-        runs = measured(planned(config, seeds, starts=starts), f"{name}: main runs")
-        by_sigma = {}
-        for sigma in schedule.SIGMAS[name]:
-            assert isinstance(config.learner, _core.LearnerConfig)
-            if sigma == config.learner.sigma:
-                by_sigma[sigma] = runs
-                continue
-            other = config.replace(learner=config.learner.replace(sigma=sigma))
-            by_sigma[sigma] = measured(planned(other, seeds), f"{name}: sigma {sigma:g}")
-        reseeded = measured(
-            planned(config, [seed + schedule.RESEEDED for seed in seeds]), f"{name}: other seeds"
-        )
-        in_similar = measured(
-            [
-                jobs.job(w, config, seed, rounds=schedule.SIMILAR_ROUNDS)
-                for w, seed in zip(similar, seeds)
-            ],
-            f"{name}: similar worlds",
-        )
-        # Random motions learn nothing, so they are the same control for both presets.
-        plain = preset("paper")
-        random = measured(
-            planned(plain, seeds, agent="random", rounds=schedule.CONTROL_ROUNDS),
-            "control: random motions",
-        )
-        random_in_similar = measured(
-            [
-                jobs.job(w, plain, s, agent="random", rounds=schedule.SIMILAR_CONTROL_ROUNDS)
-                for w, s in zip(similar, seeds)
-            ],
-            "control: random motions in similar worlds",
-        )
-        results[name] = Results(runs, random, in_similar, random_in_similar, by_sigma, reseeded)
-    return results
+    path: Path, seeds: int, workers: int | None, say: Say
+) -> tuple[dict[str, Results], dict[str, dict[str, list[Measures]]], dict[str, int]]:
+    """All runs, in one sweep: section VI's by preset, those beyond it, and their shortest paths."""
+    _make_room(path, say)
+    numbers = range(1, seeds + 1)
+    by_preset = {name: sweeps.planned(name, numbers) for name in schedule.READINGS}
+    further = beyond.planned(worlds(), numbers[: beyond.MOST_SEEDS])
+    planned = [spec for plan in by_preset.values() for spec in plan.all()]
+    asked = Together([*planned, *further.values()])
+    say(f"{len(asked)} runs of section VI, and of two presets in every world")
+    file = sweep(asked, path, workers=workers, retry_failed=True)
+    errors = [row["error"] for row in file.rows(asked.jobs()) if row["error"]]
+    if errors:
+        raise RuntimeError(f"{len(errors)} runs failed, the first by\n{errors[0]}")
+    results = {name: sweeps.results(plan, file) for name, plan in by_preset.items()}
+    return results, *beyond.results(further, file)
 
 
-def _run_beyond(
-    seeds: int, journal: Journal, workers: int | None, say: Say
-) -> tuple[dict[str, dict[str, list[Measures]]], dict[str, int]]:
-    names = worlds()
-    used = range(1, min(seeds, beyond.MOST_SEEDS) + 1)
-    jobs_beyond = beyond.planned(names, used)
-    what = "beyond the paper: both presets in every world"
-    say(f"{what}: {len(jobs_beyond)} runs")
-    runs = run_all(beyond.execute, jobs_beyond, journal, workers=workers, what=what)
-    return beyond.by_world(names, used, runs), beyond.shortest_of(names)
+def _make_room(path: Path, say: Say) -> None:
+    """Moves a file aside with which the runs cannot go on."""
+    if not path.is_file():
+        return
+    try:
+        file = store.Results(path)
+        file.check()
+        if file.current:
+            return
+        end, why = ".other", f"{path}: runs of devlearn {file.meta['devlearn']}, of other code"
+    except FileError as error:
+        end, why = ".damaged", str(error)
+    say(f"{why}; it is kept as {store.set_aside(path, end)}, and all is run again")

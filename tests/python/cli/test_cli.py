@@ -6,7 +6,9 @@ import json
 import os
 import re
 import shlex
+import shutil
 import signal
+import sqlite3
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -16,10 +18,11 @@ import devlearn
 import numpy as np
 import pytest
 from conftest import differences, refusal
-from devlearn import Record, Trial, TrialConfig, World, _core, cli
-from devlearn.experiments import runs
+from devlearn import Record, Results, Trial, TrialConfig, World, _core, cli
+from devlearn.experiments import pools, store
+from devlearn.experiments.job import Row
 from devlearn.experiments.schedule import Schedule
-from devlearn.paper import jobs, measures, schedule, survival, tables
+from devlearn.paper import measures, reproduce, schedule, survival, tables
 from devlearn.paper.claims import claims
 
 SHORT = ["--steps", "300", "--rounds", "3", "--step-limit", "200"]
@@ -506,7 +509,8 @@ def small():
             patch.setattr(schedule, name, value)
         patch.setattr(measures, "settled_round", lambda record: int(record.rounds["round"][-1]))
         patch.setattr(tables, "PAPER_TABLE_1", {4: 194, 8: 149})
-        patch.setattr(runs, "code_version", lambda: "this code")  # whoever edits it meanwhile
+        patch.setattr(measures, "SETTLED_ROUNDS", 1)
+        patch.setattr(store, "code_version", lambda: "this code")  # whoever edits it meanwhile
         yield figures.Gallery()
 
 
@@ -655,30 +659,37 @@ def test_the_report_tells_each_claim_with_its_control(reproduced):
     assert f"report: {folder / 'report.html'}" in out
 
 
-def test_reproducing_again_runs_nothing_again(reproduced, small, monkeypatch, capsys):
+def test_reproducing_again_runs_nothing_again(reproduced, quick, monkeypatch, capsys):
     folder, _ = reproduced
-    journal = (folder / "runs.jsonl").read_bytes()
     before = json.loads((folder / "numbers.json").read_text())
+    runs = finished_in(folder)
+    # 16 less the controls that both presets share; and both presets in every world, less the
+    # paper's in its own.
+    assert len(runs) == 14 + 2 * len(devlearn.worlds()) - 1
 
     def never(job):
         raise AssertionError("run again")
 
-    from devlearn.paper import beyond, figures
-
-    monkeypatch.setattr(jobs, "execute", never)
-    monkeypatch.setattr(beyond, "execute", never)
-    monkeypatch.setattr(figures, "FIGURES", {})  # they take most of the time
-    line = ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(folder)]
-    assert cli.main(line) == 0
-    assert (folder / "runs.jsonl").read_bytes() == journal
-    # 16 less the controls that both presets share; and both presets in every world.
-    assert len(journal.splitlines()) == 14 + 2 * len(devlearn.worlds())
+    monkeypatch.setattr(pools, "execute", never)
+    assert cli.main(quick(folder)) == 0
+    assert finished_in(folder) == runs
     after = json.loads((folder / "numbers.json").read_text())
     assert after["claims"] == before["claims"]
     assert after["runs"] == before["runs"]
+    assert after["beyond"] == before["beyond"]
 
 
-def test_reproduce_that_is_stopped_says_how_to_go_on(small, tmp_path, monkeypatch, capsys):
+def test_what_was_reproduced_is_the_results_of_a_sweep(reproduced):
+    folder, _ = reproduced
+    frame = Results(folder / "runs.sqlite").to_pandas()
+    assert frame["error"].isna().all()
+    assert set(frame["agent"]) == {"paper", "step5", "adaptive", "RandomAgent"}
+    [main] = frame.query("world == 'paper' and label == 'paper' and seed == 1").to_dict("records")
+    [run] = json.loads((folder / "numbers.json").read_text())["runs"]["paper"]["runs"]
+    assert main["steps"] == sum(run["round_steps"]) + 2 * 3000
+
+
+def test_reproduce_that_is_stopped_says_how_to_go_on(quick, tmp_path, monkeypatch, capsys):
     count = 0
 
     def stopped(job):
@@ -688,11 +699,115 @@ def test_reproduce_that_is_stopped_says_how_to_go_on(small, tmp_path, monkeypatc
             raise KeyboardInterrupt
         return execute(job)
 
-    execute = jobs.execute
-    monkeypatch.setattr(jobs, "execute", stopped)
-    line = ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(tmp_path)]
-    assert cli.main(line) == 130
+    execute = pools.execute
+    monkeypatch.setattr(pools, "execute", stopped)
+    assert cli.main(quick(tmp_path)) == 130
     err = capsys.readouterr().err
     assert f"kept in {tmp_path}; the same command goes on from there" in err
     assert "Traceback" not in err
-    assert len((tmp_path / "runs.jsonl").read_text().splitlines()) == 2
+    before = finished_in(tmp_path)
+    assert len(before) == 2
+    assert cli.main(quick(tmp_path)) == 0
+    assert finished_in(tmp_path)[:2] == before
+    assert count == 3 + len(finished_in(tmp_path)) - 2
+
+
+def of_other_code(path):
+    with sqlite3.connect(path) as connection:
+        connection.execute("UPDATE meta SET value = 'other' WHERE name IN ('code', 'devlearn')")
+
+
+def without_an_end(path):
+    content = path.read_bytes()
+    path.write_bytes(content[: len(content) // 2])
+
+
+def no_database(path):
+    path.write_text("something else entirely")
+
+
+def empty(path):
+    path.write_bytes(b"")
+
+
+@pytest.mark.parametrize(
+    ("change", "says", "end"),
+    [
+        (of_other_code, "runs of devlearn other, of other code", "other"),
+        (without_an_end, "malformed", "damaged"),
+        (no_database, "file is not a database", "damaged"),
+        (empty, "another application's file", "damaged"),
+    ],
+)
+def test_runs_that_cannot_be_gone_on_with_are_moved_aside(reproduced, tmp_path, change, says, end):
+    folder, _ = reproduced
+    path, aside = tmp_path / "runs.sqlite", tmp_path / f"runs.sqlite.{end}"
+    shutil.copy(folder / "runs.sqlite", path)
+    change(path)
+    before = path.read_bytes()
+    said = []
+    reproduce._make_room(path, said.append)
+    assert str(path) in said[0]
+    assert says in said[0]
+    assert f"it is kept as {aside}, and all is run again" in said[0]
+    assert aside.read_bytes() == before
+    assert not path.exists()
+
+
+def test_runs_of_this_code_are_gone_on_with(reproduced):
+    folder, _ = reproduced
+    said = []
+    reproduce._make_room(folder / "runs.sqlite", said.append)
+    assert said == []
+    assert (folder / "runs.sqlite").exists()
+
+
+def test_damaged_runs_are_made_again_to_the_same_numbers(reproduced, quick, tmp_path, capsys):
+    folder, _ = reproduced
+    no_database(tmp_path / "runs.sqlite")
+    assert cli.main(quick(tmp_path)) == 0
+    assert "runs.sqlite.damaged, and all is run again" in capsys.readouterr().out
+    assert len(finished_in(tmp_path)) == len(finished_in(folder))
+    numbers = [json.loads((at / "numbers.json").read_text()) for at in (folder, tmp_path)]
+    assert numbers[0]["claims"] == numbers[1]["claims"]
+    assert numbers[0]["beyond"] == numbers[1]["beyond"]
+
+
+def test_a_run_that_fails_is_told_and_made_again(quick, tmp_path, monkeypatch):
+    def failing(job):
+        if job.world == "corridor":
+            return Row(error="Traceback: a fault of some run")
+        return execute(job)
+
+    execute = pools.execute
+    monkeypatch.setattr(pools, "execute", failing)
+    with pytest.raises(RuntimeError, match=r"2 runs failed.*\n.*a fault of some run"):
+        cli.main(quick(tmp_path))
+    assert not (tmp_path / "report.html").exists()
+    before = finished_in(tmp_path)
+    monkeypatch.setattr(pools, "execute", execute)
+    assert cli.main(quick(tmp_path)) == 0
+    assert len(set(before) & set(finished_in(tmp_path))) == len(before) - 2
+
+
+def test_files_of_the_present_folder_do_not_stand_in_for_modules(quick, tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "path", [at for at in sys.path if at])
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(quick(tmp_path / "out")) == 0
+    assert "" not in sys.path
+
+
+def finished_in(folder):
+    """The runs of a folder, and when each was finished."""
+    with sqlite3.connect(folder / "runs.sqlite") as connection:
+        return connection.execute("SELECT id, run_finished, run_seconds FROM runs").fetchall()
+
+
+@pytest.fixture
+def quick(small, monkeypatch):
+    """A whole ``devlearn reproduce`` but for the figures, which take most of the time."""
+    from devlearn.paper import figures
+
+    monkeypatch.setattr(figures, "FIGURES", {})
+    monkeypatch.setattr(figures, "Gallery", lambda world: small)
+    return lambda folder: ["reproduce", "--seeds", "1", "--workers", "1", "--output", str(folder)]

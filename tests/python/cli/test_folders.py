@@ -291,7 +291,7 @@ def test_two_reproductions_in_one_folder_are_one_at_a_time(tmp_path, capsys):
     with owned_folder(tmp_path):
         said = refusal(capsys, "reproduce", "--seeds", 1, "--output", tmp_path)
     assert f"in use by process {os.getpid()} on " in said
-    assert not (tmp_path / "runs.jsonl").exists()
+    assert not (tmp_path / "runs.sqlite").exists()
 
 
 def test_a_target_that_nothing_leads_to_is_said_before_the_run(tmp_path, capsys):

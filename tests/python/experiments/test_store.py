@@ -10,12 +10,13 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pandas
 import parties
 import pytest
-from devlearn import FileError, InvalidValue, Results, sweep
+from devlearn import FileError, InvalidValue, Results, World, sweep
 from devlearn.experiments import job, spec
 from devlearn.experiments.measures import MEASURES
-from devlearn.experiments.store import SCHEMA, Store
+from devlearn.experiments.store import SCHEMA, Store, set_aside
 
 SMALL = {
     "worlds": ["paper", "empty"],
@@ -253,3 +254,94 @@ def test_results_that_are_not_there_are_refused(tmp_path):
         Results(tmp_path / "none.sqlite")
     with pytest.raises(InvalidValue, match=r"a file, such as results\.sqlite"):
         sweep(SMALL, tmp_path)
+
+
+# --- several sweeps in one file -------------------------------------------------------------------
+
+
+def test_what_several_sweeps_ask_for_is_run_once_with_all_that_they_ask(tmp_path):
+    more = {**SMALL, "seeds": "2-3", "agents": ["paper"], "settings": {}, "keep": "rounds"}
+    more["measures"] = ["parties:step_count"]
+    path = tmp_path / "r.sqlite"
+    results = sweep([SMALL, more], path, workers=1)
+    assert len(results) == 12 + 2
+    for row in results.rows(spec.read(more).jobs()):
+        assert row["parties:step_count"] == row["steps"]
+        assert len(results.rounds(row["run"])) == 5
+    assert len(json.loads(results.meta["spec"])) == 2
+    before = of_sql(path, "SELECT id, run_finished, run_seconds FROM runs")
+    sweep([more, SMALL], path, workers=1)
+    assert of_sql(path, "SELECT id, run_finished, run_seconds FROM runs") == before
+
+
+def test_two_worlds_of_one_name_are_refused_together(tmp_path):
+    specs = []
+    for name in ("paper", "empty"):
+        (tmp_path / name).mkdir()
+        World.load(name).save(tmp_path / name / "w.json")
+        file = tmp_path / name / "s.toml"
+        file.write_text('worlds = ["w.json"]\nagents = ["paper"]\nseeds = "1"\n')
+        specs.append(file)
+    with pytest.raises(InvalidValue, match=r"'w\.json'; expected one world of that name"):
+        sweep(specs, tmp_path / "r.sqlite")
+
+
+def test_rows_are_found_by_their_runs_in_the_order_asked_for(tmp_path):
+    names = ["parties:step_count", "parties:three_values", "parties:nothing"]
+    results = sweep({**SMALL, "measures": names}, tmp_path / "r.sqlite", workers=1)
+    jobs = [*spec.read(SMALL).jobs()][::-1]
+    rows = results.rows(jobs)
+    frame = results.to_pandas().set_index("run")
+    for one, row in zip(jobs, rows):
+        assert (row["world"], row["agent"], row["seed"]) == (one.world, one.agent, one.seed)
+        assert json.loads(row["settings"]) == one.settings
+        assert row["steps"] == frame.loc[row["run"], "steps"]
+        assert row["parties:three_values"] == {"steps": [row["steps"]], "name": "x"}
+        assert row["parties:nothing"] is None
+    with pytest.raises(InvalidValue, match=r"paper, seed 9, in paper; expected one of the 12"):
+        results.rows(spec.read({**SMALL, "seeds": [9]}).jobs())
+
+
+def test_damage_is_found_by_a_check_before_rows_are_missed(tmp_path):
+    path = tmp_path / "r.sqlite"
+    sweep(SMALL, path, workers=1).check()
+    content, whole = path.read_bytes(), Results(path).to_pandas()
+    page, found = 4096, 0
+    for at in range(page, len(content), page):
+        path.write_bytes(content[:at] + b"\xff" * page + content[at + page :])
+        try:
+            Results(path).check()
+        except FileError as error:
+            assert error.file == str(path)
+            found += 1
+        else:
+            pandas.testing.assert_frame_equal(Results(path).to_pandas(), whole)
+    assert found > 5
+
+
+def test_a_file_set_aside_is_whole_with_what_its_log_holds_and_leaves_room(tmp_path):
+    path = tmp_path / "r.sqlite"
+    asked = spec.read(SMALL)
+    with Store(path, asked) as store:
+        for one in [*asked.jobs()][:3]:
+            store.add([(one, job.execute(one))])
+        for name in ("r.sqlite", "r.sqlite-wal"):  # as a kill leaves them
+            (tmp_path / f"k{name}").write_bytes((tmp_path / name).read_bytes())
+    assert len(Results(tmp_path / "kr.sqlite")) == 3
+    aside = set_aside(tmp_path / "kr.sqlite", ".old")
+    assert aside == tmp_path / "kr.sqlite.old"
+    assert len(Results(aside)) == 3
+    assert not list(tmp_path.glob("kr.sqlite-*"))
+    assert len(sweep({**SMALL, "seeds": "1"}, tmp_path / "kr.sqlite", workers=1)) == 6
+
+
+def test_a_log_left_behind_is_not_taken_for_a_new_file_s(tmp_path):
+    path = tmp_path / "r.sqlite"
+    asked = spec.read(SMALL)
+    with Store(path, asked) as store:
+        for one in asked.jobs():
+            store.add([(one, job.execute(one))])
+        log = (tmp_path / "r.sqlite-wal").read_bytes()
+    path.unlink()
+    (tmp_path / "r.sqlite-wal").write_bytes(log)
+    assert len(sweep({**SMALL, "seeds": "1"}, path, workers=1)) == 6

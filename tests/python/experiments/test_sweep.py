@@ -2,7 +2,10 @@
 
 import concurrent.futures
 import contextlib
+import io
+import multiprocessing
 import os
+import re
 import signal
 import sqlite3
 import subprocess
@@ -160,6 +163,37 @@ def test_a_kill_of_the_sweep_loses_no_finished_run_and_leaves_no_worker(tmp_path
     assert not workers_of(process.pid)
 
 
+@pytest.mark.parametrize(("given", "inherited"), [(None, "1"), ("3", "3")])
+def test_workers_share_the_cores_unless_told_otherwise(tmp_path, monkeypatch, given, inherited):
+    if given is None:
+        monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    else:
+        monkeypatch.setenv("OMP_NUM_THREADS", given)
+    asked = spec.read({**BRIEF, "agents": ["paper"], "seeds": "1-4"} | {"measures": [THREADS]})
+    rows = sweep(asked, tmp_path / "r.sqlite", workers=2).rows(asked.jobs())
+    assert [row[THREADS] for row in rows] == [{"threads": inherited}] * 4
+    assert os.environ.get("OMP_NUM_THREADS") == given
+
+
+THREADS = "parties:threads"
+
+
+def test_a_sweep_ends_its_own_workers_and_leaves_other_processes_alone(tmp_path):
+    other = multiprocessing.get_context("spawn").Process(target=time.sleep, args=(60,))
+    other.start()
+    try:
+        sweep({**BRIEF, "agents": ["paper"], "seeds": "1-4"}, tmp_path / "r.sqlite", workers=2)
+        other.join(0.3)
+        assert other.is_alive()
+        deadline = time.monotonic() + 10
+        while multiprocessing.active_children() != [other] and time.monotonic() < deadline:
+            time.sleep(0.02)
+        assert multiprocessing.active_children() == [other]
+    finally:
+        other.kill()
+        other.join()
+
+
 def workers_of(pid):
     """Processes that were spawned by one that may be no more."""
     return [
@@ -204,6 +238,28 @@ def test_batches_take_about_as_long_as_the_pool_wants_and_never_what_is_not_ther
 )
 def test_where_it_cannot_run_is_refused(tmp_path, more, quantity):
     refused(lambda: sweep(SMALL, tmp_path / "r.sqlite", **more), quantity)
+
+
+# --- progress -------------------------------------------------------------------------------------
+
+
+def test_the_bar_is_silent_where_nobody_watches(tmp_path, capfd):
+    sweep({**BRIEF, "agents": ["paper"], "seeds": "1-3"}, tmp_path / "r.sqlite", workers=1)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_the_bar_counts_what_is_done_and_begins_with_what_was_found(tmp_path, monkeypatch):
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    path, asked = tmp_path / "r.sqlite", {**BRIEF, "agents": ["paper"]}
+    sweep({**asked, "seeds": "1-2"}, path, workers=1)
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    sweep([{**asked, "seeds": "1-4"}, {**asked, "seeds": "3-4"}], path, workers=1)
+    shown = sys.stderr.getvalue().split("\r")[1:]
+    assert re.match(r"runs: +50%.* 2/4 ", shown[0])
+    assert re.match(r"runs: +100%.* 4/4 .*\n$", shown[-1])
 
 
 # --- the command line -----------------------------------------------------------------------------

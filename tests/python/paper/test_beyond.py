@@ -3,8 +3,9 @@
 import matplotlib
 import numpy as np
 import pytest
-from devlearn import Trial, TrialConfig, World
-from devlearn.paper import beyond
+from devlearn import Robot, Tally, Trial, TrialConfig, World, shortest_path, sweep
+from devlearn.experiments.schedule import Schedule
+from devlearn.paper import beyond, measures, schedule
 
 matplotlib.use("Agg")
 
@@ -39,22 +40,39 @@ def test_a_run_that_ended_early_failed_in_the_rounds_left_out(found):
     assert list(lines["shortest path"]) == [100, 100]
 
 
-def test_a_planned_run_is_that_trial():
-    plan = beyond.planned(["empty"], [3])
-    assert [TrialConfig.from_dict(job["config"]) for job in plan] == [
-        TrialConfig.paper(), TrialConfig.adaptive(),
-    ]  # fmt: skip
-    job = plan[1] | {"schedule": plan[1]["schedule"] | {"rounds": 30}}
-    made = beyond.execute(job)
-    trial = Trial(World.load("empty"), TrialConfig.adaptive(), seed=3)
-    rounds = trial.path_learning(30).rounds
-    assert made["steps"] == rounds["steps"].tolist()
-    assert made["arrived"] == rounds["arrived"].tolist()
-    assert made["total"] == int(np.sum(made["steps"]))
+def test_the_runs_are_found_again_by_world_and_preset(tmp_path, monkeypatch):
+    monkeypatch.setattr(schedule, "SECTION_VI", Schedule((200, 200), rounds=45, step_limit=400))
+    worlds = ["empty", "corridor"]
+    plan = beyond.planned(worlds, [3, 4])
+    found, shortest = beyond.results(plan, sweep([*plan.values()], tmp_path / "r.sqlite"))
+    assert list(found) == list(shortest) == worlds
+    for name in worlds:
+        world = World.load(name)
+        assert (
+            shortest[name]
+            == shortest_path(Robot(world), goal_radius=TrialConfig().goal_radius).steps
+        )
+        assert list(found[name]) == ["paper", "adaptive"]
+        for seed, made in zip((3, 4), found[name]["adaptive"]):
+            paths = Trial(world, TrialConfig.adaptive(), seed=seed).path_learning(45, 400)
+            assert made["steps"] == paths.rounds["steps"].tolist()
+            assert made["arrived"] == paths.rounds["arrived"].tolist()
+            assert made["settled"] == measures.settled_round(paths)
+            assert made["total"] == len(paths)
+        for seed, made in zip((3, 4), found[name]["paper"]):
+            trial = Trial(world, TrialConfig.paper(), seed=seed)
+            free = [trial.free_learning(200) for _ in range(2)]
+            paths = trial.path_learning(len(made["steps"]), 400)
+            assert made["steps"] == paths.rounds["steps"].tolist()
+            assert made["total"] == sum(map(len, free)) + len(paths)
 
 
-def test_runs_are_found_again_by_world_and_preset():
-    runs = [{"n": i} for i in range(8)]
-    found = beyond.by_world(["a", "b"], [1, 2], runs)
-    assert found["a"]["adaptive"] == [{"n": 2}, {"n": 3}]
-    assert found["b"]["paper"] == [{"n": 4}, {"n": 5}]
+def test_rounds_are_counted_from_the_first_of_path_learning_and_forty_make_a_habit():
+    rounds = np.zeros(44, Tally().rounds.dtype)
+    rounds["round"], rounds["steps"], rounds["arrived"] = np.arange(1, 45), 7, True
+    rounds["path"][:4] = [1, 2, 3, 4]
+    assert beyond.measure(rounds, 2)["settled"] == 3
+    rounds["path"][4] = 5
+    assert beyond.measure(rounds, 2)["settled"] is None
+    assert beyond.measure(rounds, 2)["total"] == 44 * 7
+    assert beyond.measure(rounds, 2)["steps"] == [7] * 42

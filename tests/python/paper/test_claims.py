@@ -5,8 +5,10 @@ import math
 
 import numpy as np
 import pytest
-from devlearn import TrialConfig
-from devlearn.paper import jobs, places
+from devlearn import RandomAgent, Trial, TrialConfig
+from devlearn.experiments.job import run_of
+from devlearn.experiments.schedule import Schedule
+from devlearn.paper import sweeps
 from devlearn.paper.claims import Results, aggregate, claims, judge
 
 FIELDS = {"id", "section", "claim", "measure", "unit", "aggregate", "criterion", "control"}
@@ -203,15 +205,13 @@ def test_sigmas_are_compared_by_medians_and_the_control_by_other_seeds():
 
 
 def test_real_runs_give_every_claim_a_figure_and_a_control(paper):
-    config = TrialConfig.paper()
+    def run(seed, agent=None):
+        trial = Trial(paper, TrialConfig.paper(), seed, agent)
+        return run_of(trial, Schedule(rounds=6), record=True)
 
-    def run(agent, seed, **more):
-        job = jobs.job(paper, config, seed, agent=agent, rounds=6, shortest=113, **more)
-        return jobs.execute(job)
-
-    starts = places.new_starts(paper, config, 1)
-    runs = [run("learner", seed, starts=starts) for seed in (1, 2)]
-    given = copy.deepcopy(results(runs, [run("random", 1)]))
+    learned = [run(seed) for seed in (1, 2)]
+    runs = [{**sweeps.claims(made), **sweeps.new_starts(made)} for made in learned]
+    given = copy.deepcopy(results(runs, [sweeps.claims(run(1, RandomAgent(1)))]))
     for key, verdict in by_id(given).items():
         if key in ("late_increases_explore", "settled_path_is_short"):
             continue  # six rounds need not have any

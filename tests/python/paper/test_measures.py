@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 E, X, H = Kind.EXPLORE, Kind.EXPLOIT, Kind.EXHAUSTED
-NOTHING, EXTENSION, REJECTION, ORIENTATION, ABANDONMENT = Event
 
 
 def made(rounds, *, first=3, arrived=None, **columns):
@@ -24,6 +23,7 @@ def made(rounds, *, first=3, arrived=None, **columns):
     all_columns = {name: np.zeros(len(motion), dtype) for name, dtype in STEP_COLUMNS.items()}
     all_columns |= {
         "motion": motion,
+        "round": np.repeat([n for n, _, _ in entries], list(map(len, rounds))).astype(np.int32),
         "rounds": np.array(entries, dtype=[("round", "i4"), ("steps", "i8"), ("arrived", "?")]),
     }
     all_columns |= {name: np.zeros(len(motion) + len(rounds)) for name in ("x", "y", "heading")}
@@ -158,24 +158,9 @@ def test_repeated_explorations_are_those_beyond_the_first_over_all_records():
     assert measures.repeated_explorations([first, second, first]) == 3
 
 
-def test_known_ineffective_are_executions_after_a_first_that_failed():
-    record = made(
-        [[0, 0, 1, 0, 1, 1]],
-        situation=[5, 5, 5, 6, 5, 5],
-        smf_used=[-1, 2, 1, -1, -1, 3],
-    )
-    # (5, 0) failed at first, its second execution is waste although it then succeeds; (5, 1)
-    # succeeded at first; (6, 0) is executed once.
-    assert measures.known_ineffective([record]).tolist() == [0, 1, 0, 0, 0, 0]
-    again = made([[0, 1]], situation=[6, 5], smf_used=[0, 0])
-    assert measures.known_ineffective([record, again]).tolist() == [0, 1, 0, 0, 0, 0, 1, 0]
-
-
 def test_an_smf_of_zero_is_effective():
     record = made([[0, 0]], situation=[5, 5], smf_used=[0, 0], kind=[X, X], event=[3, 3])
-    assert not measures.known_ineffective([record]).any()
     assert measures.exploited_ineffective([record]) == 0
-    assert measures.computing_waste([record]) == 0
 
 
 # --- shares ---------------------------------------------------------------------------------------
@@ -193,17 +178,7 @@ def test_only_exploits_count_among_the_exploited():
     assert measures.exploited_ineffective([made([[0]], kind=[E], smf_used=[-1])]) == 0
 
 
-def test_computing_waste_is_a_share_of_the_updates_of_orientations():
-    record = made(
-        [[0] * 6],
-        event=[NOTHING, EXTENSION, REJECTION, ORIENTATION, ABANDONMENT, ABANDONMENT],
-        smf_used=[-1, 1, -1, 1, -1, -1],
-    )
-    assert measures.computing_waste([record]) == 2 / 4
-
-
 def test_a_collision_counts_by_what_is_learned_from_it():
     # Raw SMF says the robot came nearer; what was used says that it hit something.
-    record = made([[0]], kind=[X], event=[ABANDONMENT], smf=[5], smf_used=[-1], collided=[1])
+    record = made([[0]], kind=[X], event=[Event.ABANDONMENT], smf=[5], smf_used=[-1], collided=[1])
     assert measures.exploited_ineffective([record]) == 1
-    assert measures.computing_waste([record]) == 1
