@@ -55,19 +55,21 @@ def compare(
     if type(maps) is not int or maps < 0:
         raise InvalidValue("maps", repr(maps), "a whole number, at least 0")
     file = None if source is None else Path(path_text(source))
+    chosen = None if seeds is None else specs.seeds_of(seeds)
     if file is not None and _is_results(file):
-        if seeds is not None:
+        if chosen is not None:
             raise InvalidValue("seeds", seeds, "none: results are compared as they are")
         results = Results(file)
         folder = made_folder(output)
     else:
         asked = specs.read(SHIPPED if file is None else file)
         folder = made_folder(output)
-        results = _run(asked, folder, seeds, workers, scheduler, maps, say)
+        results = _run(_of_seeds(asked, chosen), folder, workers, scheduler, maps, say)
     settings = folder / "ablations.sqlite"
     if ablations:
-        say("ablations")
-        sweep(ablated.read(), settings, workers=workers, scheduler=scheduler)
+        each = _of_seeds(ablated.read(), chosen)
+        say(f"{len(each)} runs, each with one setting changed")
+        sweep(each, settings, workers=workers, scheduler=scheduler)
     path = folder / "report.html"
     compared = Compared(results)
     if references is None:
@@ -87,15 +89,17 @@ def _is_results(file: Path) -> bool:
         return False  # reading it as a sweep's file says what is wrong
 
 
+def _of_seeds(asked: Spec, seeds: list[int] | None) -> Spec:
+    if seeds is None:
+        return asked
+    return dataclasses.replace(asked, seeds=seeds, values={**asked.values, "seeds": seeds})
+
+
 def _run(
-    asked: Spec, folder: Path, seeds: str | Sequence[int] | None, workers: int | None,
-    scheduler: str | None, maps: int, say: Say,
+    asked: Spec, folder: Path, workers: int | None, scheduler: str | None, maps: int, say: Say,
 ) -> Results:  # fmt: skip
     keep = asked.keep if asked.keep == "record" else "rounds"
     asked = dataclasses.replace(asked, keep=keep, values={**asked.values, "keep": keep})
-    if seeds is not None:
-        chosen = specs.seeds_of(seeds)
-        asked = dataclasses.replace(asked, seeds=chosen, values={**asked.values, "seeds": chosen})
     path = folder / "results.sqlite"
     if maps:
         some = dataclasses.replace(

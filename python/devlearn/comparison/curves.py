@@ -22,10 +22,11 @@ def learning_curves(compared: Compared, world: str) -> dict[str, Band]:
     seeds, from the least to the greatest.
     """
     runs = {one.name: _runs(compared, one, world) for one in compared.learners}
-    ends = [int(ends[-1]) for finished in runs.values() for ends, _ in finished if len(ends)]
-    if not ends:
+    made = [ends for finished in runs.values() for ends, _ in finished if len(ends)]
+    if not made:
         return {}
-    steps = np.unique(np.geomspace(100, max(max(ends), 1000), _POINTS).astype(np.int64))
+    first, last = min(ends[0] for ends in made), max(ends[-1] for ends in made)
+    steps = np.unique(np.geomspace(first, max(last, 10 * first), _POINTS).astype(np.int64))
     return {name: _band(steps, finished) for name, finished in runs.items() if finished}
 
 

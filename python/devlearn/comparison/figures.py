@@ -20,7 +20,7 @@ from .curves import learning_curves
 from .tables import improvement, mean, percent
 from .worst import Worst
 
-_PIXELS = 120  # an inch, on the page
+_PIXELS = 108  # an inch, on the page, on which three stand side by side
 _TAUS = 80
 
 
@@ -128,7 +128,7 @@ def wastes(compared: Compared) -> Iterator[Picture]:
         if rows:
             axes = plots.plot_intervals(
                 rows, looks={one.name: one.look for one in compared.contenders}, shares=True,
-                xlabel=MEASURES[measure].doc, title=measure.replace("_", " "),
+                limits=(0.0, 1.0), xlabel=MEASURES[measure].doc, title=measure.replace("_", " "),
             )  # fmt: skip
             yield picture(
                 axes,
@@ -162,7 +162,7 @@ def generalisation(compared: Compared) -> Iterator[tuple[str, list[Picture]]]:
             )  # fmt: skip
             shares = ", ".join(map(percent, found.arrived))
             seeds = ", ".join(map(str, runs["seed"]))
-            caption = f"{one.name}: arrives from {shares} of all starts (seed {seeds})."
+            caption = f"{one.name}: arrives from {shares} of all starts (a run each, seed {seeds})."
             drawn.append(picture(axes, caption))
         if drawn:
             yield world, drawn

@@ -84,12 +84,18 @@ def _against(compared: Compared, references: Sequence[Contender]) -> Iterator[st
         found = [(one, improvement(compared, one, reference, "last_ratio")) for one in others]
         better = [one.name for one, e in found if e is not None and e.low > 0.5]
         worse = [one.name for one, e in found if e is not None and e.high < 0.5]
-        if found:
+        if others:
             yield (
-                f"Beside {reference.name} in the same world with the same seed, the last rounds of "
-                f"these are shorter more often than not: {_listed(better)}; of these longer: "
-                f"{_listed(worse)}."
+                f"In the same world with the same seed {_who(better, others)} "
+                f"in shorter rounds than {reference.name} more often than not, and "
+                f"{_who(worse, others)} in longer ones."
             )
+
+
+def _who(names: Sequence[str], others: Sequence[Contender]) -> str:
+    if len(names) == len(others) > 1:
+        return f"all {len(others)} others end"
+    return f"{_listed(names)} {'end' if len(names) > 1 else 'ends'}"
 
 
 def _where(compared: Compared) -> Iterator[str]:

@@ -168,9 +168,9 @@ def failures(compared: Compared) -> Table:
             settled = compared.scores(contender, "settled_round", [world])
             restless = 0 if settled is None else int(np.isinf(settled).sum())
             below = [interval(failed, percent)] if failed.value else []
-            below += [f"{restless} of {len(runs)} never settle"] if restless else []
-            below += [f"{errors} of {len(runs)} end by an error"] if errors else []
-            cells.append(Cell(percent(failed.value), "; ".join(below), failed.value >= 0.5))
+            below += [f"{restless} of {len(runs)} unsettled"] if restless else []
+            below += [f"{errors} of {len(runs)} by an error"] if errors else []
+            cells.append(Cell(percent(failed.value), "\n".join(below), failed.value >= 0.5))
         rows.append((world, cells))
     return Table([Cell(one.name) for one in compared.contenders], rows)
 

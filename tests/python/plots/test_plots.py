@@ -803,3 +803,76 @@ def test_what_a_plot_cannot_read_is_refused_by_name_and_in_words(name, odd):
 def test_a_truth_value_is_no_round(paths):
     with pytest.raises(WrongType, match="round entry: got True; expected a whole number"):
         plots.plot_trajectory(paths, entry=True)
+
+
+# --- curves, intervals and cells ------------------------------------------------------------------
+
+
+def line(ax, gid):
+    [found] = [one for one in ax.get_lines() if one.get_gid() == gid]
+    return found
+
+
+def test_a_curve_is_drawn_with_its_band():
+    band = plots.Band([1, 10, 100], [8, 4, 2], [7, 3, 1.5], [9, 5, 4])
+    ax = plots.plot_bands({"a": band}, xlabel="steps")
+    np.testing.assert_allclose(line(ax, "curve-a").get_xydata(), [[1, 8], [10, 4], [100, 2]])
+    [drawn] = [one for one in ax.collections if one.get_gid() == "band-a"]
+    corners = {tuple(corner) for corner in drawn.get_paths()[0].vertices}
+    assert {(1, 7), (1, 9), (10, 3), (10, 5), (100, 1.5), (100, 4)} <= corners
+    assert ax.get_xscale() == ax.get_yscale() == "log" and ax.get_xlabel() == "steps"
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_is_infinite_leaves_the_axes_and_does_not_stretch_them():
+    inf = math.inf
+    bands = {"a": plots.Band([1, 2, 3], [inf, 4, 2], [6, 3, 2], [inf, inf, 2]),
+             "b": plots.Band([1, 2, 3], [inf] * 3, [inf] * 3, [inf] * 3)}  # fmt: skip
+    ax = plots.plot_bands(bands)
+    _, top = ax.get_ylim()
+    assert 4 < top < 10
+    assert line(ax, "curve-a").get_ydata()[0] > top
+    assert (line(ax, "curve-b").get_ydata() > top).all()
+    ax.figure.canvas.draw()
+
+
+@pytest.mark.filterwarnings("error")
+def test_curves_of_nobody_say_so():
+    for bands in ({}, {"a": plots.Band([1, 2], [math.inf] * 2, [math.inf] * 2, [math.inf] * 2)}):
+        ax = plots.plot_bands(bands)
+        ax.figure.canvas.draw()
+        assert [text.get_text() for text in ax.texts] == ["none arrives"]
+
+
+def test_intervals_reach_from_end_to_end_one_below_the_other():
+    rows = {"a": (0.5, 0.25, 0.75), "b": (0.2, -math.inf, math.inf)}
+    ax = plots.plot_intervals(rows, bound=0.5, limits=(0, 1))
+    assert line(ax, "interval-a").get_xydata().tolist() == [[0.25, 0], [0.75, 0]]
+    assert line(ax, "interval-b").get_xydata().tolist() == [[0, 1], [1, 1]]
+    assert line(ax, "value-b").get_xydata().tolist() == [[0.2, 1]]
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["a", "b"]
+    low, high = ax.get_ylim()
+    assert low > high  # the first is above
+    assert line(ax, "bound").get_xdata()[0] == 0.5
+
+
+def test_many_looks_differ_in_colour_or_dashes():
+    looks = [plots.look(i) for i in range(32)]
+    assert len({(one.color, one.dash) for one in looks}) == 32
+    assert all(a.color != b.color and a.dash != b.dash for a, b in zip(looks, looks[1:8]))
+
+
+def test_cells_lie_where_they_are_in_the_world():
+    world = devlearn.World(4, 2, (10.5, 20.5, 0), (13.5, 21.5), origin=(10, 20))
+    values = [[1, 2, math.nan, math.inf], [5, 6, 7, 8]]
+    ax = plots.plot_cells(world, values, limits=(1, 8), log=True, label="ratio", title="x")
+    cells, never = (
+        next(one for one in ax.collections if one.get_gid() == gid) for gid in ("cells", "never")
+    )
+    corners = cells.get_coordinates()
+    assert corners[0, 0].tolist() == [10, 20] and corners[-1, -1].tolist() == [14, 22]
+    shown = cells.get_array().reshape(2, 4)
+    assert shown.mask.tolist() == [[False, False, True, True], [False] * 4]
+    assert shown.compressed().tolist() == [1, 2, 5, 6, 7, 8]
+    crossed = never.get_array().reshape(2, 4)
+    assert crossed.mask.tolist() == [[True, True, True, False], [True] * 4]
