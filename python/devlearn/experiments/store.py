@@ -381,7 +381,8 @@ class Store:
         return (
             "CREATE VIEW results AS SELECT r.id AS run, w.name AS world, v.agent, v.label, "
             f"v.settings, v.trial, v.schedule, r.seed, {', '.join(columns)} FROM runs r "
-            "JOIN worlds w ON w.id = r.world JOIN variants v ON v.id = r.variant"
+            "JOIN worlds w ON w.id = r.world JOIN variants v ON v.id = r.variant "
+            "ORDER BY r.world, r.variant, r.seed"
         )
 
     def _id(self, table: str, key: Sequence[str], **values: Any) -> int:
