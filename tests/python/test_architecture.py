@@ -156,6 +156,7 @@ EXTRAS = {
     "jinja2": "_pages.py",
     "tqdm": "experiments",
     "scipy": "experiments",
+    "distributed": "experiments",
 }
 
 

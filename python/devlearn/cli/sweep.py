@@ -48,6 +48,10 @@ def add_to(verbs: Any) -> None:
     )
     parser.add_argument("--retry-failed", action="store_true", help="make runs again that failed")
     parser.add_argument(
+        "--patience", type=float, default=600.0, metavar="SECONDS",
+        help="how long to wait for a scheduler that is gone (default: %(default)g)",
+    )  # fmt: skip
+    parser.add_argument(
         "--run", metavar="JSON", help="make this run alone, as the command of a row has it"
     )
     parser.add_argument("--record", metavar="FILE", help="with --run: write its record here")
@@ -70,7 +74,14 @@ def _main(options: argparse.Namespace) -> int:
         f"{len(asked.variants)} x seeds {len(asked.seeds)})"
     )
     try:
-        results = sweep(asked, options.output, workers=options.workers, scheduler=options.scheduler)
+        results = sweep(
+            asked,
+            options.output,
+            workers=options.workers,
+            scheduler=options.scheduler,
+            patience=options.patience,
+            retry_failed=options.retry_failed,
+        )
     except KeyboardInterrupt:
         warn(f"what is finished is kept in {options.output}; the same command goes on from there")
         raise

@@ -45,10 +45,13 @@ def execute_all(jobs: Sequence[Job]) -> list[Row]:
 class Pool(Protocol):
     """Whoever works on batches of jobs."""
 
-    width: int
-    """So many batches are with it at a time."""
-    seconds: float
-    """A batch should take so long."""
+    @property
+    def width(self) -> int:
+        """So many batches are with it at a time."""
+
+    @property
+    def seconds(self) -> float:
+        """A batch should take so long."""
 
     def submit(self, jobs: Sequence[Job]) -> Future[list[Row]]:
         """Begins on a batch."""

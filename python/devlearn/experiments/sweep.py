@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import os
+import sys
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
@@ -32,6 +34,7 @@ def sweep(
     *,
     workers: int | None = None,
     scheduler: str | None = None,
+    patience: float = 600.0,
     executor: Executor | None = None,
     retry_failed: bool = False,
     progress: bool | None = None,
@@ -42,10 +45,10 @@ def sweep(
     in the file are not made again: stopped, the same call goes on. Each run is the same wherever it
     is made.
 
-    Parameters: workers, processes of this machine (None: one a core; 1: this process alone);
-    scheduler, the address of a Dask cluster in place of them, or executor, any of
-    concurrent.futures, with ``workers`` of its batches under way; retry_failed: whether runs that
-    failed are made again; progress: None where somebody watches.
+    Parameters: workers, processes of this machine (None: one a core; 1: this process alone), or
+    scheduler, the address of a Dask cluster's, which is waited for when it is gone, for
+    ``patience`` seconds, or executor, any of concurrent.futures, with so many ``workers``;
+    retry_failed: whether runs that failed are made again; progress: None where somebody watches.
 
     A run that fails is kept with its traceback, and the sweep goes on. Ctrl-C raises
     KeyboardInterrupt; what is finished is kept. Raises InvalidValue for what the spec cannot mean,
@@ -66,7 +69,7 @@ def sweep(
                 store.add(finished)
                 bar.update(len(finished))
 
-            pool = _pool(workers, scheduler, executor, missing)
+            pool = _pool(workers, scheduler, patience, executor, missing)
             run_all(store.missing(asked.jobs()), missing, pool, keep)
     return Results(path)
 
@@ -81,12 +84,25 @@ def _asked(spec: Asked | Sequence[Asked] | specs.Together) -> specs.Spec | specs
 
 
 def _pool(
-    workers: int | None, scheduler: str | None, executor: Executor | None, missing: int
+    workers: int | None,
+    scheduler: str | None,
+    patience: float,
+    executor: Executor | None,
+    missing: int,
 ) -> Pool:
     if workers is not None and (type(workers) is not int or not 1 <= workers <= _MOST_WORKERS):
         raise InvalidValue("workers", shown(workers), f"a whole number in [1, {_MOST_WORKERS}]")
-    if scheduler is not None and executor is not None:
-        raise InvalidValue("scheduler", scheduler, "none where there is an executor")
+    if scheduler is not None:
+        if not isinstance(scheduler, str) or not scheduler:
+            raise InvalidValue("scheduler", shown(scheduler), "an address: tcp://HOST:PORT")
+        if executor is not None or workers is not None:
+            raise InvalidValue("scheduler", scheduler, "none beside workers or an executor")
+        if not isinstance(patience, (int, float)) or not 0 <= patience < math.inf:
+            raise InvalidValue("patience", shown(patience), "seconds, from 0 on")
+        if missing:
+            from .cluster import Cluster
+
+            return Cluster(scheduler, patience, lambda line: tqdm.write(line, file=sys.stderr))
     workers = workers or os.cpu_count() or 1
     if executor is not None:
         if not isinstance(executor, Executor):
