@@ -10,6 +10,7 @@ from pathlib import Path
 
 from .._calls import path_text
 from .._files import made_folder
+from .._settings import unknown
 from ..errors import InvalidValue
 from ..experiments import spec as specs
 from ..experiments.spec import Spec
@@ -63,6 +64,10 @@ def compare(
         folder = made_folder(output)
     else:
         asked = specs.read(SHIPPED if file is None else file)
+        agents = {one.agent.rpartition(":")[2] for one in asked.variants}
+        for name in references or ():  # before all is run; what was set follows a comma
+            if name.partition(", ")[0].rpartition(":")[2] not in agents:
+                raise unknown("reference", name, sorted(agents))
         folder = made_folder(output)
         results = _run(_of_seeds(asked, chosen), folder, workers, scheduler, maps, say)
     settings = folder / "ablations.sqlite"
@@ -73,8 +78,8 @@ def compare(
     path = folder / "report.html"
     compared = Compared(results)
     if references is None:
-        agents = {one.agent for one in compared.contenders}
-        references = [name for name in REFERENCES if name in agents]
+        compete = {one.agent for one in compared.contenders}
+        references = [name for name in REFERENCES if name in compete]
     effects = Compared(Results(settings)) if settings.exists() else None
     write_report(path, compared, references, effects)
     return path

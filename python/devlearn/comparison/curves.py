@@ -16,6 +16,12 @@ WINDOW = 5
 _POINTS = 48
 
 
+def can_be_drawn(compared: Compared) -> bool:
+    """Whether the results kept the rounds of all that ran."""
+    runs = compared.frame[compared.frame["error"].isna()]["run"]
+    return compared.results.with_rounds.issuperset(map(int, runs))
+
+
 def learning_curves(compared: Compared, world: str) -> dict[str, Band]:
     """By contender, over steps, those of free learning counted: the median over seeds of the ratio
     of a round to the shortest path, and its 95 % interval; where that cannot be had of so few

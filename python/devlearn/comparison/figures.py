@@ -16,7 +16,7 @@ from ..plots.looks import swatch
 from ..plots.panels import Axes, figure_of, png
 from . import maps, tables
 from .compared import Compared, Contender
-from .curves import learning_curves
+from .curves import can_be_drawn, learning_curves
 from .tables import improvement, mean, percent
 from .worst import Worst
 
@@ -54,7 +54,7 @@ def of_seeds(compared: Compared) -> str:
 def learning(compared: Compared) -> Iterator[tuple[str, Picture]]:
     """Learning curves, a world each."""
     looks = {one.name: one.look for one in compared.learners}
-    for world in compared.worlds:
+    for world in compared.worlds if can_be_drawn(compared) else ():
         bands = learning_curves(compared, world)
         if bands:
             axes = plots.plot_bands(

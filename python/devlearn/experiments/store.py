@@ -242,6 +242,11 @@ class Results:
         """The Record of a run. Raises InvalidValue where it was not kept."""
         return Record.from_bytes(self._kept("record", run))
 
+    @property
+    def with_rounds(self) -> set[int]:
+        """The runs of which the rounds were kept."""
+        return {run for (run,) in self._all("SELECT run FROM kept WHERE rounds IS NOT NULL")}
+
     def _kept(self, what: str, run: int) -> bytes:
         found = self._all(f"SELECT {what} FROM kept WHERE run = ?", run)
         if not found or found[0][0] is None:

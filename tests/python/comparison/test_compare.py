@@ -92,7 +92,9 @@ def of(frame, agent, **more):
 
 def test_the_first_table_holds_what_the_results_hold(made):
     path, results = made
-    row = Page(path).row("adaptive")
+    page = Page(path)
+    assert "the median of the last 5 rounds" in page.text
+    row = page.row("adaptive")
     runs = of(results.to_pandas(), "adaptive")
     assert row[1].partition("|")[0] == thousands(np.median(runs["first_arrival"]))
     reached = np.isfinite(runs["within_1_25"]).sum()
@@ -221,6 +223,14 @@ def _inline(value):
 # --- what is left out, and what is refused --------------------------------------------------------
 
 
+def test_results_that_kept_no_rounds_are_shown_without_learning_curves(tmp_path):
+    small = {**SOME, "worlds": ["empty"], "seeds": "1-2", "keep": "nothing", "rounds": 5}
+    results = sweep(small, tmp_path / "r.sqlite", workers=1)
+    page = Page(compare(results.path, tmp_path, say=lambda _: None))
+    assert page.row("Straight") and "How the runs are spread" in page.text
+    assert "the median of the last 5 rounds" not in page.text
+
+
 def test_unfinished_seeds_are_left_out_and_it_is_said(made, tmp_path):
     path = tmp_path / "part.sqlite"
     path.write_bytes(made[1].path.read_bytes())
@@ -262,6 +272,9 @@ def test_what_cannot_be_meant_is_refused(made, tmp_path):
     refused(lambda: compare(results, tmp_path, seeds="1-3"), "seeds", "1-3")
     refused(lambda: compare(results, tmp_path, references=["Nobody"]), "reference", "'Nobody'")
     refused(lambda: compare(results, tmp_path, maps=-1), "maps", "-1")
+    file = written(tmp_path / "some.toml", SOME)
+    refused(lambda: compare(file, tmp_path, references=["papers"]), "reference")
+    assert not (tmp_path / "results.sqlite").exists()
     assert cli.main(["compare", str(results), "--search", "--output", str(tmp_path)]) == 1
 
 
