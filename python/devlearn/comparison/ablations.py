@@ -134,7 +134,7 @@ def _against(column: Column, ours: Scores, theirs: Scores) -> Cell:
         more = statistics.bootstrap(
             statistics.difference(statistics.mean), ours, theirs, paired=True
         )
-        return told(more, lambda share: f"{100 * share:+.1f} %")
+        return told(more, lambda share: f"{round(100 * share, 1) + 0.0:+.1f} %")  # not -0.0
     found = statistics.estimate_improvement(ours, theirs, paired=True)
     return Cell(percent(found.value), interval(found, percent))
 
