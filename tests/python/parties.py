@@ -90,3 +90,22 @@ def threads(run):
 
 def wrong(run):
     return np.zeros
+
+
+class Changes(Straight):
+    """Changes the list that it was given."""
+
+    def __init__(self, seed, motions):
+        super().__init__(seed)
+        motions.append(seed)
+
+
+class Bare(BaseException):
+    """No Exception."""
+
+
+class RaisesBare(Straight):
+    """Fails by what is no Exception, with a text that is no Unicode."""
+
+    def choose(self, observation):
+        raise Bare("\udc80 is half a letter")

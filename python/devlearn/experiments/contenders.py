@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import importlib
 import importlib.util
 import inspect
@@ -85,7 +86,8 @@ def _agent(
         return cls(changed(cls.Config(), settings), seed)
     if name in _PLAIN:
         return _PLAIN[name](config, world, seed)
-    return of_module("agent", name)(seed=seed, **settings)
+    own = copy.deepcopy(dict(settings))  # which it may change; other runs have the same
+    return of_module("agent", name)(seed=seed, **own)
 
 
 def _require_arguments(name: str, settings: Mapping[str, Any]) -> None:
@@ -111,7 +113,7 @@ def of_module(quantity: str, name: str) -> Callable[..., Any]:
         found: Any = importlib.import_module(module)
         for part in attribute.split("."):
             found = getattr(found, part)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         told = f"{name}, which cannot be had: {type(error).__name__}: {error}"
         raise InvalidValue(quantity, told, "module:name of what can be imported") from error
     if not callable(found):

@@ -91,8 +91,12 @@ def execute(job: Job) -> Row:
     began = time.thread_time()
     try:
         row = _made(job)
-    except (Exception, SystemExit):
-        row = Row(error=traceback.format_exc())
+    except KeyboardInterrupt:
+        raise
+    except BaseException:
+        # What is no text, such as half a surrogate pair, no file of results can hold.
+        told = traceback.format_exc().encode(errors="backslashreplace").decode()
+        row = Row(error=told)
     row.seconds = time.thread_time() - began
     row.host = socket.gethostname()
     row.finished = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())

@@ -28,7 +28,7 @@ from .schedule import Schedule
 _LARGEST_SEED = 2**63 - 1  # as SQLite holds it
 _MOST_RUNS = 10**7
 _SCHEDULE = [field.name for field in dataclasses.fields(Schedule)]
-_RANDOM_WORLD = re.compile(r"([a-z_]+):(\d+)(?:-(\d+))?")
+_RANDOM_WORLD = re.compile(r"([a-z_]+):(\d{1,19})(?:-(\d{1,19}))?")
 
 # Each key of a spec, and what it is in words.
 KEYS = {
@@ -239,7 +239,7 @@ def seeds_of(seeds: object) -> list[int]:
     found: list[int] = []
     if isinstance(seeds, str):
         for part in seeds.split(","):
-            span = re.fullmatch(r"\s*(\d+)\s*(?:-\s*(\d+)\s*)?", part)
+            span = re.fullmatch(r"\s*(\d{1,19})\s*(?:-\s*(\d{1,19})\s*)?", part)
             if not span:
                 raise InvalidValue("seeds", repr(seeds), KEYS["seeds"])
             first, last = int(span[1]), int(span[2] or span[1])
@@ -352,6 +352,9 @@ def of_command(text: str) -> Job:
     )
     [job] = one.jobs()
     settings, trial = values.get("settings", {}), values.get("trial", {})
+    for key, table in (("settings", settings), ("trial", trial)):
+        if not isinstance(table, dict):
+            raise InvalidValue(key, shown(table), "a table")
     config_of(job.agent, settings, trial)
     asked = values.get("world_hash", found := world_hash(job.world_json))
     if asked != found:

@@ -96,7 +96,7 @@ def _opened(path: Path, *, write: bool) -> sqlite3.Connection:
         mode = "ro&immutable=1"  # a reader, too, would write what it shares with a writer
     with _told(path):
         connection = sqlite3.connect(
-            f"file:{quote(str(path.absolute()))}?mode={mode}",
+            f"file://{quote(os.fsencode(path.absolute()))}?mode={mode}",
             uri=True,
             isolation_level=None,
             check_same_thread=False,

@@ -58,6 +58,8 @@ def sweep(
     path = Path(path_text(output))
     if path.is_dir() or not path.name:
         raise InvalidValue("output", str(path), "a file, such as results.sqlite")
+    if path.exists() and not path.is_file():
+        raise InvalidValue("output", str(path), "a file, no device or pipe")
     made_folder(path.parent)
     with Store(path, asked, retry_failed=retry_failed) as store:
         missing = sum(1 for _ in store.missing(asked.jobs()))

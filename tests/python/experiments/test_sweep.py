@@ -307,3 +307,45 @@ def test_a_run_by_its_command_writes_its_record(tmp_path, capsys):
 def test_the_command_line_refuses_what_it_cannot_run(capsys, arguments, says):
     assert cli.main(["sweep", *arguments]) == 1
     assert says in capsys.readouterr().err
+
+
+def test_an_agent_that_changes_its_settings_changes_no_other_run(tmp_path):
+    asked = {**BRIEF, "agents": ["parties:Changes"], "seeds": "1-2"}
+    asked["settings"] = {"parties:Changes": {"motions": [[7]]}}
+    frame = sweep(asked, tmp_path / "r.sqlite", workers=1).to_pandas()
+    assert frame["settings"].tolist() == ['{"motions":[7]}'] * 2
+    assert len(sweep(asked, tmp_path / "r.sqlite", workers=1)) == 2
+
+
+def test_whatever_an_agent_raises_is_kept(tmp_path):
+    asked = {**BRIEF, "agents": ["parties:RaisesBare", "paper"], "seeds": "1-2"}
+    frame = sweep(asked, tmp_path / "r.sqlite", workers=1).to_pandas()
+    assert all("\\udc80 is half a letter" in text for text in frame["error"].dropna())
+    assert frame["error"].notna().tolist() == [True, True, False, False]
+
+
+@pytest.mark.parametrize("name", ["a?b%41#c d.sqlite", "\udcff.sqlite"])
+def test_results_may_have_any_name_that_a_file_may_have(tmp_path, name):
+    asked = {**BRIEF, "agents": ["paper"], "seeds": "1"}
+    assert len(sweep(asked, tmp_path / name, workers=1)) == 1
+    assert len(sweep(asked, f"/{tmp_path / name}", workers=1)) == 1
+    assert (tmp_path / name).is_file()
+
+
+def test_a_pipe_is_no_file_of_results(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    asked = {**BRIEF, "agents": ["paper"], "seeds": "1"}
+    refused(lambda: sweep(asked, tmp_path / "pipe"), "output")
+    assert (tmp_path / "pipe").is_fifo()
+
+
+@pytest.mark.parametrize("changed", [{"seeds": "9" * 5000}, {"worlds": ["similar:" + "9" * 40]}])
+def test_numbers_longer_than_any_seed_are_refused(changed):
+    refused(lambda: spec.read({**BRIEF, "agents": ["paper"], "seeds": "1", **changed}))
+
+
+@pytest.mark.parametrize("key", ["settings", "trial"])
+def test_a_command_whose_settings_are_no_table_is_refused(key):
+    refused(
+        lambda: spec.of_command(f'{{"world":"empty","agent":"paper","seed":1,"{key}":null}}'), key
+    )
