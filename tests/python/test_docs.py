@@ -163,7 +163,7 @@ SWEEPS = (ROOT / "docs/sweeps.md").read_text(encoding="utf-8")
 def test_the_guide_to_sweeps_runs_as_it_stands(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code, measure = re.findall(r"```python\n(.*?)```", SWEEPS, re.DOTALL)
-    names = {}
+    names = {"__name__": "__main__"}
     exec(code, names)
     assert len(names["table"]) == 18
     (tmp_path / "my_module.py").write_text(measure)
