@@ -84,12 +84,16 @@ def _against(compared: Compared, references: Sequence[Contender]) -> Iterator[st
         found = [(one, improvement(compared, one, reference, "last_ratio")) for one in others]
         better = [one.name for one, e in found if e is not None and e.low > 0.5]
         worse = [one.name for one, e in found if e is not None and e.high < 0.5]
-        if others:
-            yield (
-                f"In the same world with the same seed {_who(better, others)} "
-                f"in shorter rounds than {reference.name} more often than not, and "
-                f"{_who(worse, others)} in longer ones."
-            )
+        open_ = [one.name for one in others if one.name not in (*better, *worse)]
+        told = [
+            f"{_who(names, others)} in {how} rounds than {reference.name} more often than not"
+            for names, how in ((better, "shorter"), (worse, "longer"))
+            if names
+        ]
+        if open_:
+            told.append(f"of {_listed(open_)} these runs do not tell")
+        if told:
+            yield f"In the same world with the same seed {'; '.join(told)}."
 
 
 def _who(names: Sequence[str], others: Sequence[Contender]) -> str:

@@ -21,6 +21,7 @@ from concurrent.futures import (
 from contextlib import contextmanager
 from typing import Protocol
 
+from ..errors import InvalidValue
 from .job import Job, Row, execute
 
 TRIES = 3
@@ -187,7 +188,7 @@ class Here:
 
 
 class Processes:
-    """So many processes of this machine.
+    """So many processes of this machine. Raises InvalidValue where they cannot start.
 
     Spawned, so that they inherit nothing; not threads, as Python code of jobs would take turns.
     """
@@ -199,6 +200,15 @@ class Processes:
         self.width = 2 * workers  # what is queued need not be undone when someone stops
         self._others = multiprocessing.active_children()
         self._executor = self._made()
+        try:
+            with _interrupts_held(), _one_thread_each():
+                self._executor.submit(int).result()
+        except BrokenExecutor as error:
+            raise InvalidValue(
+                "workers", f"{workers}, which end as they start",
+                'a program that they can import: its sweep under `if __name__ == "__main__":`, '
+                "or workers=1",
+            ) from error  # fmt: skip
 
     def _made(self) -> ProcessPoolExecutor:
         return ProcessPoolExecutor(

@@ -184,10 +184,11 @@ def _of(values: dict[str, Any], folder: Path) -> Spec:
         if key not in values:
             raise InvalidValue(key, "nothing", KEYS[key])
     try:
-        canonical(values)
+        json.dumps(values, ensure_ascii=False).encode()
     except (TypeError, ValueError) as error:
         raise InvalidValue("spec", str(error), "values that JSON can hold") from error
     own = [_text("measures", name) for name in _list("measures", values.get("measures", []))]
+    _require_once("measures", [name.lower() for name in own])  # columns of SQL, which see no case
     for name in own:
         measures.own(name)  # refuses what there is not
     keep = values.get("keep", "nothing")
@@ -229,7 +230,7 @@ def _worlds(name: str, folder: Path) -> Iterator[tuple[str, str]]:
         yield name, World.load(name).to_json()
     else:
         file = folder / name
-        if not file.exists() and not name.endswith(".json"):
+        if not os.path.exists(file) and not name.endswith(".json"):
             raise unknown("worlds", name, worlds())
         yield name, World.load(file).to_json()
 

@@ -6,8 +6,10 @@ docs/results-format.md says what stands in it.
 from __future__ import annotations
 
 import json
+import operator
 import os
 import sqlite3
+import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
@@ -18,9 +20,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _core
-from .._calls import path_text
+from .._calls import path_text, shown
 from .._files import code_version, locked
-from ..errors import FileError, InvalidValue, MissingExtra
+from ..errors import FileError, InvalidValue, MissingExtra, WrongType
 from ..record import Record
 from .job import Job, Row, canonical, unpacked, world_hash
 from .measures import MEASURES
@@ -222,7 +224,7 @@ class Results:
         found = self._all(
             "SELECT w.name, w.json, '{' || v.quoted || '}', r.seed, v.label, r.own FROM runs r "
             "JOIN worlds w ON w.id = r.world JOIN variants v ON v.id = r.variant WHERE r.id = ?",
-            run,
+            _number(run),
         )
         if not found:
             raise InvalidValue("run", run, f"one of the {len(self)} in {self.path}")
@@ -236,7 +238,11 @@ class Results:
 
     def rounds(self, run: int) -> npt.NDArray[np.void]:
         """The rounds of a run, as `devlearn.Tally.rounds`. Raises InvalidValue where not kept."""
-        return unpacked(self._kept("rounds", run))
+        content = self._kept("rounds", run)
+        try:
+            return unpacked(content)
+        except (zlib.error, ValueError) as error:
+            raise FileError(str(self.path), f"rounds of run {run}", error, WANTED) from error
 
     def record(self, run: int) -> Record:
         """The Record of a run. Raises InvalidValue where it was not kept."""
@@ -248,7 +254,7 @@ class Results:
         return {run for (run,) in self._all("SELECT run FROM kept WHERE rounds IS NOT NULL")}
 
     def _kept(self, what: str, run: int) -> bytes:
-        found = self._all(f"SELECT {what} FROM kept WHERE run = ?", run)
+        found = self._all(f"SELECT {what} FROM kept WHERE run = ?", _number(run))
         if not found or found[0][0] is None:
             raise InvalidValue("run", run, f"one of which the {what} was kept")
         return bytes(found[0][0])
@@ -294,6 +300,7 @@ class Store:
         another writer, or holds runs of another version.
         """
         self.path = Path(path_text(path))
+        self._file = Path(os.path.realpath(self.path))  # one, by whichever links it is named
         self._spec = spec
         self._retry_failed = retry_failed
         self._stack = ExitStack()
@@ -302,11 +309,11 @@ class Store:
         with ExitStack() as stack:
             stack.enter_context(
                 locked(
-                    self.path.with_name(self.path.name + ".lock"), str(self.path),
+                    self._file.with_name(self._file.name + ".lock"), str(self.path),
                     "a file that nobody else writes to: wait for it, or choose another --output",
                 )
             )  # fmt: skip
-            if not self.path.exists() or self.path.stat().st_size == 0:
+            if not self._file.exists() or self._file.stat().st_size == 0:
                 self._make()
             self._connection = _opened(self.path, write=True)
             stack.callback(self._connection.close)
@@ -320,7 +327,7 @@ class Store:
 
     def _make(self) -> None:
         # To the side first: what is there under its name is whole.
-        aside = self.path.with_name(self.path.name + ".new")
+        aside = self._file.with_name(self._file.name + ".new")
         aside.unlink(missing_ok=True)
         with _told(self.path):
             connection = sqlite3.connect(aside, isolation_level=None)
@@ -333,8 +340,8 @@ class Store:
                 connection.close()
         # A log that some other file of this name left behind would be taken for this one's.
         for beside in _BESIDE:
-            self.path.with_name(self.path.name + beside).unlink(missing_ok=True)
-        os.replace(aside, self.path)
+            self._file.with_name(self._file.name + beside).unlink(missing_ok=True)
+        os.replace(aside, self._file)
 
     def _begin(self) -> None:
         execute = self._connection.execute
@@ -348,6 +355,13 @@ class Store:
                 f"a new file, or one of this code, {code['devlearn']} ({code['commit']}); "
                 "choose another --output",
             )  # fmt: skip
+        hashes = dict(execute("SELECT name, hash FROM worlds"))
+        for name, text in self._spec.worlds.items():
+            if hashes.get(name, world_hash(text)) != world_hash(text):
+                raise FileError(
+                    str(self.path), "worlds", f"{name}, which has changed since",
+                    "the same world under a name; choose another name or --output",
+                )  # fmt: skip
         meta = {**code, "box2d": _core.box2d_version, "spec": canonical(self._spec.values)}
         self._connection.executemany("INSERT OR REPLACE INTO meta VALUES (?, ?)", meta.items())
         columns = _columns(self._connection)
@@ -469,6 +483,17 @@ class Store:
                 [row.rounds, row.record, *place],
             )
         self._found[place] = (own, row.rounds is not None, row.record is not None)
+
+
+def _number(run: int) -> int:
+    """A run's number, numpy's too, as SQLite holds it."""
+    try:
+        number = operator.index(run)
+    except TypeError as error:
+        raise WrongType("run", shown(run), "a whole number") from error
+    if not 0 <= number < 2**63:
+        raise InvalidValue("run", number, "in [0, 2^63)")
+    return number
 
 
 def _named(column: str) -> str:

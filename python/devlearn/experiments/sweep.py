@@ -56,10 +56,11 @@ def sweep(
     """
     asked = _asked(spec)
     path = Path(path_text(output))
-    if path.is_dir() or not path.name:
-        raise InvalidValue("output", str(path), "a file, such as results.sqlite")
-    if path.exists() and not path.is_file():
+    if "\0" in str(path) or not path.name or os.path.isdir(path):
+        raise InvalidValue("output", repr(str(path)), "a file, such as results.sqlite")
+    if os.path.exists(path) and not os.path.isfile(path):
         raise InvalidValue("output", str(path), "a file, no device or pipe")
+    _require_place(workers, scheduler, patience, executor)
     made_folder(path.parent)
     with Store(path, asked, retry_failed=retry_failed) as store:
         missing = sum(1 for _ in store.missing(asked.jobs()))
@@ -85,13 +86,9 @@ def _asked(spec: Asked | Sequence[Asked] | specs.Together) -> specs.Spec | specs
     return specs.read(spec)
 
 
-def _pool(
-    workers: int | None,
-    scheduler: str | None,
-    patience: float,
-    executor: Executor | None,
-    missing: int,
-) -> Pool:
+def _require_place(
+    workers: int | None, scheduler: str | None, patience: float, executor: Executor | None
+) -> None:
     if workers is not None and (type(workers) is not int or not 1 <= workers <= _MOST_WORKERS):
         raise InvalidValue("workers", shown(workers), f"a whole number in [1, {_MOST_WORKERS}]")
     if scheduler is not None:
@@ -101,14 +98,23 @@ def _pool(
             raise InvalidValue("scheduler", scheduler, "none beside workers or an executor")
         if not isinstance(patience, (int, float)) or not 0 <= patience < math.inf:
             raise InvalidValue("patience", shown(patience), "seconds, from 0 on")
-        if missing:
-            from .cluster import Cluster
+    if executor is not None and not isinstance(executor, Executor):
+        raise InvalidValue("executor", shown(executor), "one of concurrent.futures")
 
-            return Cluster(scheduler, patience, lambda line: tqdm.write(line, file=sys.stderr))
+
+def _pool(
+    workers: int | None,
+    scheduler: str | None,
+    patience: float,
+    executor: Executor | None,
+    missing: int,
+) -> Pool:
+    if scheduler is not None and missing:
+        from .cluster import Cluster
+
+        return Cluster(scheduler, patience, lambda line: tqdm.write(line, file=sys.stderr))
     workers = workers or os.cpu_count() or 1
     if executor is not None:
-        if not isinstance(executor, Executor):
-            raise InvalidValue("executor", shown(executor), "one of concurrent.futures")
         return Borrowed(executor, workers)
     if workers == 1 or missing < 2:
         return Here()

@@ -121,6 +121,8 @@ def test_an_agent_may_have_a_schedule_of_its_own():
         ({"free": 5}, "Schedule.free", "a list of whole numbers"),
         ({"keep": "all"}, "keep", "'nothing' or 'rounds' or 'record'"),
         ({"measures": ["first_arrival"]}, "measures", "devlearn's own are always measured"),
+        ({"measures": ["json:dumps", "json:Dumps"]}, "measures", "each once"),
+        ({"worlds": ["w" * 5000]}, "worlds", "one of"),
         ({"measures": ["json:none"]}, "measures", "has no attribute"),
         ({"trial": {"cellsize": 1}}, "trial", "'cell_size', or another of"),
         ({"trial": {"cell_size": "x"}}, "trial.cell_size", "[0.001, 1000] m"),
@@ -133,6 +135,7 @@ def test_an_agent_may_have_a_schedule_of_its_own():
         ({"settings": {"paper": {"free": [1, 2]}}}, "Schedule.free", "a list of whole numbers"),
         ({"settings": []}, "settings", "a table of tables"),
         ({"settings": {"paper": {"sigma": {1, 2}}}}, "spec", "JSON"),
+        ({"settings": {"paper": {"sigma": "\udc80"}}}, "spec", "JSON"),
     ],
 )
 def test_what_a_sweep_cannot_mean_is_refused_by_name(changes, quantity, says):

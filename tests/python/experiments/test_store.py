@@ -13,6 +13,7 @@ import numpy as np
 import pandas
 import parties
 import pytest
+from conftest import refused
 from devlearn import FileError, InvalidValue, Results, World, sweep
 from devlearn.experiments import job, spec
 from devlearn.experiments.measures import MEASURES
@@ -90,6 +91,44 @@ def test_what_was_not_kept_is_refused_by_the_run(tmp_path):
             read(1)
     with pytest.raises(InvalidValue, match="one of the 6 in"):
         results.job(99)
+
+
+def test_numbers_of_runs_may_be_numpy_s_and_others_are_refused(small):
+    run = small.to_pandas()["run"].iloc[0]
+    assert small.rounds(run).tobytes() == small.rounds(int(run)).tobytes()
+    for read in (small.rounds, small.record, small.job):
+        refused(lambda read=read: read(2**70), "run")
+        refused(lambda read=read: read("1"), "run")
+
+
+def test_rounds_that_are_damaged_are_refused_by_the_run(tmp_path):
+    results = sweep({**SMALL, "keep": "rounds", "seeds": "1"}, tmp_path / "r.sqlite", workers=1)
+    of_sql(results.path, "UPDATE kept SET rounds = substr(rounds, 1, 40) WHERE run = 2")
+    assert len(results.rounds(1))
+    with pytest.raises(FileError, match="rounds of run 2"):
+        results.rounds(2)
+
+
+def test_a_world_that_has_changed_is_refused_under_its_old_name(tmp_path):
+    World.load("empty").save(tmp_path / "mine.json")
+    (tmp_path / "s.toml").write_text(
+        'worlds = ["mine.json"]\nagents = ["paper"]\nseeds = "1"\nfree = []\nrounds = 1\n'
+    )
+    sweep(tmp_path / "s.toml", tmp_path / "r.sqlite", workers=1)
+    World.load("u_trap").save(tmp_path / "mine.json")
+    with pytest.raises(FileError, match=r"mine\.json, which has changed since"):
+        sweep(tmp_path / "s.toml", tmp_path / "r.sqlite", workers=1)
+
+
+def test_a_link_is_the_file_that_it_leads_to(tmp_path):
+    real, link = tmp_path / "real.sqlite", tmp_path / "link.sqlite"
+    real.touch()
+    link.symlink_to(real)
+    asked = {**SMALL, "seeds": "1"}
+    with Store(link, spec.read(asked)), pytest.raises(FileError, match=f"process {os.getpid()}"):
+        sweep(asked, real)
+    assert len(sweep(asked, link, workers=1)) == len(Results(real)) == 6
+    assert link.is_symlink()
 
 
 def test_plain_sql_reads_the_same(small):

@@ -263,6 +263,18 @@ def test_the_bar_counts_what_is_done_and_begins_with_what_was_found(tmp_path, mo
     assert re.match(r"runs: +100%.* 4/4 .*\n$", shown[-1])
 
 
+def test_a_program_that_its_workers_cannot_import_is_told_how_to_be(tmp_path):
+    program = tmp_path / "program.py"
+    asked = {**BRIEF, "agents": ["paper"], "seeds": "1-4"}
+    program.write_text(f"import devlearn\ndevlearn.sweep({asked!r}, 'r.sqlite', workers=2)\n")
+    run = subprocess.run(
+        [sys.executable, program], cwd=tmp_path, capture_output=True, text=True, timeout=60
+    )
+    assert run.returncode != 0
+    assert "InvalidValue: workers: got 2, which end as they start; expected a program" in run.stderr
+    assert len(Results(tmp_path / "r.sqlite")) == 0
+
+
 # --- the command line -----------------------------------------------------------------------------
 
 
