@@ -7,9 +7,11 @@ import pytest
 from devlearn import FileError, _files
 
 
-def test_every_python_file_of_the_package_and_the_extension_make_the_fingerprint(
-    tmp_path, monkeypatch
+@pytest.mark.parametrize(("commit", "different"), [("0a1b2c", 2), ("0a1b2c-dirty", 3)])
+def test_what_results_depend_on_is_python_files_and_a_commit_or_what_was_built_of_none(
+    tmp_path, monkeypatch, commit, different
 ):
+    monkeypatch.setattr(_files._core, "commit", commit)
     measures = tmp_path / "paper" / "measures.py"
     measures.parent.mkdir()
     measures.write_text("one")
@@ -23,7 +25,9 @@ def test_every_python_file_of_the_package_and_the_extension_make_the_fingerprint
     prints.append(_files.code_version())
     extension.write_bytes(b"two")
     prints.append(_files.code_version())
-    assert len(set(prints)) == 3
+    assert len(set(prints)) == different
+    monkeypatch.setattr(_files._core, "commit", "another")
+    assert _files.code_version() not in prints
 
 
 def test_a_folder_is_made_with_those_above_it_and_may_be_there_already(tmp_path):

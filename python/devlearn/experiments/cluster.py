@@ -37,6 +37,7 @@ LONGEST_PAUSE = 30.0
 """Seconds between two tries to reach a scheduler that is gone, at the most."""
 BATCHES_A_SECOND = 100
 """So many the scheduler and this process are to handle, at the most."""
+_LOGS = ("distributed.batched", "distributed.client", "distributed.comm", "distributed.core")
 
 
 @functools.cache
@@ -76,6 +77,10 @@ class Cluster:
         self._tell = tell
         self._threads = 0
         self._under_way: set[Future[list[Row]]] = set()
+        # What it logs of a scheduler that is gone, with its tracebacks, is told in a line.
+        self._levels = {name: logging.getLogger(name).level for name in _LOGS}
+        for name in _LOGS:
+            logging.getLogger(name).setLevel(logging.CRITICAL)
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
         self._thread.start()
@@ -120,6 +125,8 @@ class Cluster:
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
         self._loop.close()
+        for name, level in self._levels.items():
+            logging.getLogger(name).setLevel(level)
 
     # --- in the client's thread -------------------------------------------------------------------
 
@@ -221,15 +228,8 @@ async def _refuse_others(client: Client) -> None:
 
 
 async def _closed(lost: Client) -> None:
-    # It logs that it could not reconnect.
-    log = logging.getLogger("distributed.client")
-    level = log.level
-    log.setLevel(logging.CRITICAL)
-    try:
-        with suppress(Exception):
-            await lost.close()
-    finally:
-        log.setLevel(level)
+    with suppress(Exception):
+        await lost.close()
 
 
 async def _all_over() -> None:
