@@ -19,13 +19,9 @@ from devlearn.experiments import job, spec
 from devlearn.experiments.store import Store
 
 
-class Began:
-    """A measure: when a worker gets to its first run, by the clock that all processes share."""
-
-    @staticmethod
-    def at(run: Any) -> float:
-        """Seconds."""
-        return time.monotonic()
+def began(run: Any) -> float:
+    """A measure: when a worker gets to its first run, by the clock that all processes share [s]."""
+    return time.monotonic()
 
 
 def asked(first: int, last: int, **more: Any) -> dict[str, Any]:
@@ -82,13 +78,13 @@ def main() -> None:
     _, frame = swept(8, 1)
     each = frame["run_seconds"].median()
     start = time.monotonic()
-    _, starts = swept(2, 2, rounds=1, free=[], measures=["many_runs:Began.at"])
+    _, starts = swept(2, 2, rounds=1, free=[], measures=["many_runs:began"])
     count = max(4, 2 * int(1.1 * seconds / each))
     rates = {f"runs/per_second_{workers}": count / swept(count, workers)[0] for workers in (2, 1)}
     print(
         json.dumps(
             {
-                "runs/start_up": starts["many_runs:Began.at"].max() - start,
+                "runs/start_up": starts["many_runs:began"].max() - start,
                 **rates,
                 "runs/per_second_of_two_processes": count / by_themselves(count),
                 "runs/store_share": store_seconds() / each,

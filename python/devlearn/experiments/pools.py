@@ -181,7 +181,6 @@ class Here:
 
     def stop(self) -> None:
         """See Pool."""
-        pass
 
 
 # --- the processes of this machine ----------------------------------------------------------------
@@ -294,4 +293,3 @@ class Borrowed:
 
     def stop(self) -> None:
         """See Pool."""
-        pass

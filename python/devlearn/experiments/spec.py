@@ -1,6 +1,6 @@
 """What a sweep is: worlds x agents x settings x seeds, from a small file or a dict.
 
-``sweep.schema.json`` beside this file says the same for editors and other programs.
+``devlearn/sweep.schema.json`` says the same for editors and other programs.
 """
 
 from __future__ import annotations
