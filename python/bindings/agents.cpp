@@ -90,17 +90,10 @@ py::array numpy_array(const std::string& name, const py::dtype& dtype,
 
 // --- agents written in Python --------------------------------------------------------------------
 
-// An observation that Python may keep: what is allowed is its own.
-struct KeptObservation : Observation {
-  KeptObservation() = default;
-  explicit KeptObservation(const Observation& seen) : Observation(seen) {
-    if (!seen.allowed.every()) {
-      mask.emplace(seen.allowed.data(), seen.allowed.data() + seen.allowed.size());
-    }
-    allowed = {};
-  }
-
-  std::optional<std::vector<bool>> mask;
+struct MotionCountTag {
+  using type = int;
+  static constexpr const char* quantity = "motion_count";
+  static constexpr const char* allowed = "a whole number in [1, 65535]";
 };
 
 /// An agent written in Python.
@@ -243,6 +236,25 @@ py::handle own_type(const Agent& agent, Agents<A...>) {
 
 }  // namespace
 
+KeptObservation::KeptObservation(const Observation& seen) : Observation(seen) {
+  if (!seen.allowed.every()) {
+    mask.emplace(seen.allowed.data(), seen.allowed.data() + seen.allowed.size());
+  }
+  allowed = {};
+}
+
+Choice choice_of(Agent& agent, const KeptObservation& observation) {
+  Observation seen = observation;
+  std::unique_ptr<bool[]> allowed;
+  if (observation.mask) {
+    allowed = std::make_unique<bool[]>(observation.mask->size());
+    std::copy(observation.mask->begin(), observation.mask->end(), allowed.get());
+    seen.allowed = {allowed.get(), observation.mask->size()};
+    seen.allowed.validate(seen.motion_count);
+  }
+  return agent.choose(seen);
+}
+
 std::string name_of(const py::object& named) {
   return py::str(py::str("{}:{}").format(named.attr("__module__"), named.attr("__qualname__")));
 }
@@ -345,8 +357,31 @@ void bind_agents(py::module_& m) {
       return py::str(format).format(*attributes(self, names));
     };
   };
-  py::class_<KeptObservation> observation(m, "Observation", "What an agent knows when it chooses.");
-  observation.def_readonly("situation", &Observation::situation, "The present situation's id.")
+  py::class_<KeptObservation> observation(
+      m, "Observation",
+      "What an agent knows when it chooses.\n\n"
+      "A trial makes it. So does, with what agents of devlearn's look at, a loop of one's own:\n"
+      "situation, a whole number in [0, 2**63 - 1]; motion_count in [1, 65535]; estimate and sef,\n"
+      "numbers; allowed, bools, one a motion (None: every one). What is left out is 0. Raises\n"
+      "InvalidValue.");
+  observation
+      .def(py::init([](Whole<SituationTag> situation, Whole<MotionCountTag> motion_count,
+                       double estimate, double sef, const Mask& allowed) {
+             require_count("situation", situation.value, 0,
+                           std::numeric_limits<SituationId>::max());
+             require_count("motion_count", motion_count.value, 1, 65535);
+             Observation seen;
+             seen.situation = situation.value;
+             seen.motion_count = motion_count.value;
+             seen.estimate = estimate;
+             seen.sef = sef;
+             seen.allowed = allowed;
+             seen.allowed.validate(seen.motion_count);
+             return KeptObservation(seen);
+           }),
+           py::arg("situation"), py::arg("motion_count"), py::kw_only(), py::arg("estimate") = 0.0,
+           py::arg("sef") = 0.0, py::arg("allowed") = py::none())
+      .def_readonly("situation", &Observation::situation, "The present situation's id.")
       .def_readonly("pose", &Observation::pose, "[m, m, degrees]")
       .def_readonly("sef", &Observation::sef, "SEF here.")
       .def_readonly("goal_distance", &Observation::goal_distance, "d_g [m]")
@@ -376,8 +411,23 @@ void bind_agents(py::module_& m) {
   def_result(observation, &Observation::situation, &Observation::pose, &Observation::sef,
              &Observation::goal_distance, &Observation::clearance, &Observation::estimate,
              &Observation::motion_count, &KeptObservation::mask);
-  py::class_<Outcome> outcome(m, "Outcome", "What an agent is told about the motion it chose.");
-  outcome.def_readonly("situation", &Outcome::situation, "The next situation's id.")
+  py::class_<Outcome> outcome(
+      m, "Outcome",
+      "What an agent is told about the motion it chose.\n\n"
+      "A trial makes it; so does a loop of one's own: situation, a whole number in\n"
+      "[0, 2**63 - 1]; cost, estimate, sef and smf, numbers; arrived and collided, bools. Raises\n"
+      "InvalidValue.");
+  outcome
+      .def(py::init([](Whole<SituationTag> situation, double cost, double estimate, bool arrived,
+                       double sef, double smf, bool collided) {
+             require_count("situation", situation.value, 0,
+                           std::numeric_limits<SituationId>::max());
+             return Outcome{situation.value, sef, smf, collided, arrived, estimate, cost};
+           }),
+           py::arg("situation"), py::kw_only(), py::arg("cost") = 1.0, py::arg("estimate") = 0.0,
+           py::arg("arrived") = false, py::arg("sef") = 0.0, py::arg("smf") = 0.0,
+           py::arg("collided") = false)
+      .def_readonly("situation", &Outcome::situation, "The next situation's id.")
       .def_readonly("sef", &Outcome::sef, "SEF there.")
       .def_readonly("smf", &Outcome::smf, "SMF as learned from: min(SMF, -1) for a collision.")
       .def_readonly("collided", &Outcome::collided, "Whether the body touched something.")
@@ -402,6 +452,7 @@ void bind_agents(py::module_& m) {
       .def("__repr__", [](const RandomAgent& self) {
         return "<devlearn.RandomAgent: generator " + words_of(self.random()) + ">";
       });
+  def_calls(random_agent);
   def_pickling_by_state(
       random_agent, [](const RandomAgent& self) { return self.random().state(); },
       [](const py::object& state) { return RandomAgent(Random(state.cast<Random::State>())); });

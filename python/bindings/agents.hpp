@@ -1,6 +1,12 @@
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "bindings.hpp"
+#include "devlearn/agent.hpp"
 #include "devlearn/dyna_q.hpp"
 #include "devlearn/expected_sarsa.hpp"
 #include "devlearn/lrta_star.hpp"
@@ -22,6 +28,46 @@ using OwnAgents = Agents<RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, Dyn
 
 /// The class of one of them, without its module; null for any other.
 const char* own_name(const Agent& agent);
+
+/// An observation that Python may keep: what is allowed is its own.
+struct KeptObservation : Observation {
+  KeptObservation() = default;
+  explicit KeptObservation(const Observation& seen);
+
+  std::optional<std::vector<bool>> mask;
+};
+
+/// What an agent chooses, of the motions that the observation allows.
+Choice choice_of(Agent& agent, const KeptObservation& observation);
+
+/// What a trial calls of an agent, for a loop of one's own. Refused while another thread's run has
+/// the agent in hand.
+template <class A>
+void def_calls(py::class_<A, std::shared_ptr<A>>& cls) {
+  const auto idle = [](A& agent) -> Agent& {
+    require_idle(&agent, own_name(agent));
+    return agent;
+  };
+  cls.def(
+         "begin_round", [idle](A& self) { idle(self).begin_round(); },
+         "A round begins. As all that follow it: what a trial calls, for a loop of one's own.")
+      .def(
+          "choose",
+          [idle](A& self, const KeptObservation& observation) {
+            return choice_of(idle(self), observation);
+          },
+          py::arg("observation"),
+          "A motion for what is observed. Raises InvalidValue, likewise while a choice waits for "
+          "observe() or cancel().")
+      .def(
+          "observe", [idle](A& self, const Outcome& outcome) { idle(self).observe(outcome); },
+          py::arg("outcome"), "What came of the choice. Raises InvalidValue.")
+      .def(
+          "cancel", [idle](A& self) { idle(self).cancel(); }, "The waiting choice was not made.")
+      .def(
+          "end_round", [idle](A& self, bool arrived) { idle(self).end_round(arrived); },
+          py::arg("arrived"), "The round has ended, at the target or not.");
+}
 
 /// A class or a function as files name it, module:name. Nothing is imported by this name.
 std::string name_of(const py::object& named);

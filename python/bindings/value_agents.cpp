@@ -38,6 +38,7 @@ py::class_<A, std::shared_ptr<A>> def_agent(py::module_& m, const std::string& n
   py::class_<A, std::shared_ptr<A>> cls(m, name.c_str(), doc.c_str());
   cls.attr("Config") = config;
   def_pickling_of_agent(cls);
+  def_calls(cls);
   cls.def(py::init([](const std::optional<Config>& given, Whole<SeedTag> seed) {
             return std::make_shared<A>(given.value_or(Config{}), seed.value);
           }),

@@ -1788,11 +1788,25 @@ class Tally:
 class Observation:
     """
     What an agent knows when it chooses.
+
+    A trial makes it. So does, with what agents of devlearn's look at, a loop of one's own:
+    situation, a whole number in [0, 2**63 - 1]; motion_count in [1, 65535]; estimate and sef,
+    numbers; allowed, bools, one a motion (None: every one). What is left out is 0. Raises
+    InvalidValue.
     """
 
     __hash__: typing.ClassVar[None] = None  # type: ignore
     def __eq__(self, other: object, /) -> bool: ...
     def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __init__(
+        self,
+        situation: typing.SupportsIndex,
+        motion_count: typing.SupportsIndex,
+        *,
+        estimate: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        sef: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        allowed: collections.abc.Sequence[bool] | numpy.typing.NDArray[numpy.bool_] | None = None,
+    ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     @property
@@ -1839,11 +1853,26 @@ class Observation:
 class Outcome:
     """
     What an agent is told about the motion it chose.
+
+    A trial makes it; so does a loop of one's own: situation, a whole number in
+    [0, 2**63 - 1]; cost, estimate, sef and smf, numbers; arrived and collided, bools. Raises
+    InvalidValue.
     """
 
     __hash__: typing.ClassVar[None] = None  # type: ignore
     def __eq__(self, other: object, /) -> bool: ...
     def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __init__(
+        self,
+        situation: typing.SupportsIndex,
+        *,
+        cost: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        estimate: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        arrived: bool = False,
+        sef: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        smf: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        collided: bool = False,
+    ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     @property
@@ -1895,6 +1924,26 @@ class RandomAgent:
     def __init__(self, seed: typing.SupportsIndex = 0) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
 
 class QLearningConfig:
     """
@@ -2000,6 +2049,26 @@ class QLearning:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
     def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
         """
         The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
@@ -2114,6 +2183,26 @@ class ExpectedSarsa:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
     def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
         """
         The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
@@ -2244,6 +2333,26 @@ class SarsaLambda:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
     def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
         """
         The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
@@ -2375,6 +2484,26 @@ class DynaQ:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
     def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
         """
         The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
@@ -2505,6 +2634,26 @@ class PrioritizedSweeping:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
     def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
         """
         The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
@@ -2591,6 +2740,26 @@ class LrtaStar:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
     def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
         """
         The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
@@ -2703,6 +2872,26 @@ class RMax:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
     def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
         """
         The value of a motion in a situation; None for a situation never met. Raises InvalidValue.

@@ -112,7 +112,7 @@ ODD = [
 # What is only had from a call has no constructor, and says so.
 RESULTS = {
     "AdaptiveExplanation", "AdaptiveMemory", "ChoiceTrace", "Explanation", "MemoryUse",
-    "Observation", "Outcome", "Recollection", "ShortestPath", "SituationMemory", "Step",
+    "Recollection", "ShortestPath", "SituationMemory", "Step",
 }  # fmt: skip
 
 

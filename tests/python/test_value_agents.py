@@ -34,6 +34,71 @@ def test_the_module_names_each_of_them_and_its_settings():
 # --- the same history, whatever the way ----------------------------------------------------------
 
 
+class ByHand:
+    """Calls an agent from Python, as a loop of one's own does."""
+
+    def __init__(self, agent):
+        self.agent = agent
+
+    def begin_round(self):
+        self.agent.begin_round()
+
+    def choose(self, seen):
+        mine = devlearn.Observation(
+            seen.situation,
+            seen.motion_count,
+            estimate=seen.estimate,
+            sef=seen.sef,
+            allowed=seen.allowed,
+        )
+        return self.agent.choose(mine)
+
+    def observe(self, outcome):
+        told = ("cost", "estimate", "arrived", "sef", "smf", "collided")
+        mine = {name: getattr(outcome, name) for name in told}
+        assert devlearn.Outcome(outcome.situation, **mine) == outcome
+        self.agent.observe(devlearn.Outcome(outcome.situation, **mine))
+
+    def cancel(self):
+        self.agent.cancel()
+
+    def end_round(self, arrived):
+        self.agent.end_round(arrived)
+
+
+@pytest.mark.parametrize("agent", [*KINDS.values(), devlearn.RandomAgent])
+def test_called_by_hand_an_agent_goes_as_in_a_trial(agent):
+    config = TrialConfig(robot=RobotDef(safety_margin=0.05))  # with motions that are not allowed
+    mine, own = ByHand(agent(seed=3)), agent(seed=3)
+    trials = [Trial(World.load("paper"), config, agent=each) for each in (mine, own)]
+    records = [trial.path_learning(rounds=3, step_limit=300) for trial in trials]
+    assert differences(*records) == []
+    assert pickle.dumps(mine.agent) == pickle.dumps(own)
+
+
+def test_what_no_observation_may_hold_is_refused_by_hand():
+    refused(lambda: devlearn.Observation(-1, 2), "situation")
+    refused(lambda: devlearn.Observation(0, 0), "motion_count")
+    refused(lambda: devlearn.Observation(0, 65536), "motion_count")
+    refused(lambda: devlearn.Observation(0, 2, allowed=[True]), "allowed")
+    refused(lambda: devlearn.Observation(0, 2, allowed=[False, False]), "allowed")
+    refused(lambda: devlearn.Outcome(-1), "situation")
+    agent = agents.QLearning()
+    refused(lambda: agent.observe(devlearn.Outcome(0)), "observe")
+    agent.choose(devlearn.Observation(0, 2))
+    refused(lambda: agent.choose(devlearn.Observation(0, 2)), "choose")
+    agent.cancel()
+    refused(agent.cancel, "cancel")
+    refused(lambda: agent.choose(devlearn.Observation(0, 3)), "motion_count")
+    # What comes out of a pickle is looked at when it is used.
+    one = devlearn.Observation(0, 2, allowed=[True, False])
+    state = list(one.__getstate__())
+    state[-1] = [True]
+    forged = devlearn.Observation.__new__(devlearn.Observation)
+    forged.__setstate__(tuple(state))
+    refused(lambda: devlearn.RandomAgent().choose(forged), "allowed")
+
+
 @each_agent
 def test_step_by_step_and_in_one_call_give_the_same_history(agent):
     whole = Trial(EMPTY, agent=agent(seed=3))
