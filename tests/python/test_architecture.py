@@ -150,6 +150,7 @@ ROOMS = {
     "paper": {"analysis", "plots", "experiments"},
     "comparison": {"analysis", "plots", "experiments"},
     "cli": {"experiments", "paper", "comparison"},
+    "envs": set(),
 }
 EXTRAS = {
     "matplotlib": "plots",
@@ -157,6 +158,7 @@ EXTRAS = {
     "tqdm": "experiments",
     "scipy": "experiments",
     "distributed": "experiments",
+    "gymnasium": "envs",
 }
 
 

@@ -157,6 +157,19 @@ def test_the_format_tells_of_every_entry_and_array_of_an_adaptive_learner():
     assert {name.replace("path.", "habit.") for name in named if name.startswith("path.")} <= told
 
 
+def test_the_guide_to_environments_of_others_runs_as_it_stands(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    guide = (ROOT / "docs/other_environments.md").read_text(encoding="utf-8")
+    names = {}
+    for code in re.findall(r"```python\n(.*?)```", guide, re.DOTALL):
+        exec(code, names)
+    assert names["episodes"]["return"][-20:].tolist() == [1.0] * 20
+    assert names["episodes"]["steps"][-1] == 6
+    assert devlearn.envs.LearnerOn(
+        names["pendulum"], devlearn.RandomAgent(), situations=lambda _: 0
+    )
+
+
 SWEEPS = (ROOT / "docs/sweeps.md").read_text(encoding="utf-8")
 
 
