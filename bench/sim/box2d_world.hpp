@@ -92,6 +92,14 @@ class Box2dWorld {
     shape.Set(corners.data(), static_cast<int>(corners.size()));
     attach(ground, shape);
   }
+  void add(b2Body* ground, const Polyline& polyline) {
+    for (std::size_t i = 1; i < polyline.points.size(); ++i) {
+      const Point a = polyline.points[i - 1], b = polyline.points[i];
+      b2EdgeShape shape;
+      shape.SetTwoSided(vector(a.x, a.y), vector(b.x, b.y));
+      attach(ground, shape);
+    }
+  }
 
   b2World world_;
   b2FixtureDef smooth_;

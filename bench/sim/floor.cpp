@@ -68,9 +68,16 @@ Shape shape_of(const Rectangle& r) {  // upright, as all of this world are
   return outlined({{x - w, y - h}, {x + w, y - h}, {x + w, y + h}, {x - w, y + h}});
 }
 
-Shape shape_of(const Polygon& polygon) {
+Shape shape_of(const Polygon& polygon) {  // without holes, as all of this world are
   std::vector<Vector> corners;
   for (const Point& p : polygon.corners) corners.push_back({p.x, p.y});
+  return outlined(corners);
+}
+
+Shape shape_of(const Polyline& polyline) {  // there and back
+  std::vector<Vector> corners;
+  for (const Point& p : polyline.points) corners.push_back({p.x, p.y});
+  for (std::size_t i = corners.size() - 2; i > 0; --i) corners.push_back(corners[i]);
   return outlined(corners);
 }
 

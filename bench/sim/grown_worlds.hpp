@@ -18,9 +18,18 @@ inline Obstacle moved(Rectangle rectangle, double x, double y) {
   rectangle.center = moved(rectangle.center, x, y);
   return rectangle;
 }
+inline std::vector<Point> moved(std::vector<Point> points, double x, double y) {
+  for (Point& point : points) point = moved(point, x, y);
+  return points;
+}
 inline Obstacle moved(Polygon polygon, double x, double y) {
-  for (Point& corner : polygon.corners) corner = moved(corner, x, y);
+  polygon.corners = moved(std::move(polygon.corners), x, y);
+  for (auto& hole : polygon.holes) hole = moved(std::move(hole), x, y);
   return polygon;
+}
+inline Obstacle moved(Polyline polyline, double x, double y) {
+  polyline.points = moved(std::move(polyline.points), x, y);
+  return polyline;
 }
 
 // The world `paper` side by side, 32 times along x and along y, without walls between; start and

@@ -57,19 +57,39 @@ void bind_obstacles(py::module_& m) {
   py::class_<Polygon> polygon(m, "Polygon",
                               "An obstacle of any simple outline, convex or not: at least 3 "
                               "corners (x, y) [m] in either direction, neighbours at least 0.01 m "
-                              "apart.");
+                              "apart. Its holes, each such a list of corners inside the outline, "
+                              "apart from it and from each other, are free.");
   polygon
-      .def(py::init([](std::vector<Point> corners) {
-             Polygon made{std::move(corners)};
+      .def(py::init([](std::vector<Point> corners, std::vector<std::vector<Point>> holes) {
+             Polygon made{std::move(corners), std::move(holes)};
              made.validate("Polygon");
              return made;
            }),
-           py::arg("corners"))
+           py::arg("corners"), py::arg("holes") = py::list())
       .def_readonly("corners", &Polygon::corners, "(x, y) of each corner [m]")
+      .def_readonly("holes", &Polygon::holes, "(x, y) of each corner of each hole [m]")
       .def("__repr__", [](const py::object& self) {
-        return py::str("Polygon({})").format(self.attr("corners"));
+        const py::object corners = self.attr("corners"), holes = self.attr("holes");
+        if (py::len(holes) == 0) return py::str("Polygon({})").format(corners);
+        return py::str("Polygon({}, {})").format(corners, holes);
       });
-  def_value(polygon, {"corners"});
+  def_value(polygon, {"corners", "holes"});
+  py::class_<Polyline> polyline(m, "Polyline",
+                                "A wall of no thickness: at least 2 points (x, y) [m], neighbours "
+                                "at least 0.01 m apart. It may cross itself, and is closed if it "
+                                "ends where it begins.");
+  polyline
+      .def(py::init([](std::vector<Point> points) {
+             Polyline made{std::move(points)};
+             made.validate("Polyline");
+             return made;
+           }),
+           py::arg("points"))
+      .def_readonly("points", &Polyline::points, "(x, y) of each point [m]")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("Polyline({})").format(self.attr("points"));
+      });
+  def_value(polyline, {"points"});
 }
 
 }  // namespace
@@ -82,8 +102,8 @@ void bind_world(py::module_& m) {
       "An arena with walls, obstacles, a start and a target; checked once, then unchanging.\n\n"
       "Parameters: width, height of the arena in [0.5, 1000] m; start (x, y, heading) and target\n"
       "(x, y) inside it and outside every obstacle, in metres and degrees; obstacles, a list of\n"
-      "Circle, Rectangle and Polygon; origin (x, y), the arena's corner of least x and y, each\n"
-      "within 100 000 m of 0. Raises InvalidValue.");
+      "Circle, Rectangle, Polygon and Polyline; origin (x, y), the arena's corner of least x and\n"
+      "y, each within 100 000 m of 0. Raises InvalidValue.");
   def_pickling(
       world, {"width", "height", "start", "target", "obstacles", "name", "description", "origin"});
   world
@@ -177,7 +197,7 @@ void bind_world(py::module_& m) {
           "target", [](const World& self) { return self.def().target; }, "(x, y) [m]")
       .def_property_readonly(
           "obstacles", [](const World& self) { return self.def().obstacles; },
-          "Circle, Rectangle and Polygon, as a list.")
+          "Circle, Rectangle, Polygon and Polyline, as a list.")
       .def_property_readonly(
           "hash",
           [](const World& self) {

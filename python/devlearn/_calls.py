@@ -183,7 +183,8 @@ def _is_sequence(value: object, element: str, argument: Argument) -> bool:
 
 
 def _one_of(argument: Argument, kind: str) -> Argument:
-    return Argument("corner" if argument.name == "corners" else "", kind)
+    one = {"holes": "corners", "corners": "corner", "points": "corner"}
+    return Argument(one.get(argument.name, ""), kind)
 
 
 def _numbers(argument: Argument) -> int:

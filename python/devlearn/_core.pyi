@@ -34,6 +34,7 @@ __all__: list[str] = [
     "Observation",
     "Outcome",
     "Polygon",
+    "Polyline",
     "PrioritizedSweeping",
     "PrioritizedSweepingConfig",
     "QLearning",
@@ -1305,13 +1306,17 @@ class Rectangle:
 
 class Polygon:
     """
-    An obstacle of any simple outline, convex or not: at least 3 corners (x, y) [m] in either direction, neighbours at least 0.01 m apart.
+    An obstacle of any simple outline, convex or not: at least 3 corners (x, y) [m] in either direction, neighbours at least 0.01 m apart. Its holes, each such a list of corners inside the outline, apart from it and from each other, are free.
     """
 
     __hash__: typing.ClassVar[None] = None  # type: ignore
     def __eq__(self, other: object, /) -> bool: ...
     def __init__(
-        self, corners: collections.abc.Sequence[collections.abc.Sequence[float]]
+        self,
+        corners: collections.abc.Sequence[collections.abc.Sequence[float]],
+        holes: collections.abc.Sequence[
+            collections.abc.Sequence[collections.abc.Sequence[float]]
+        ] = [],
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -1320,6 +1325,29 @@ class Polygon:
         """
         (x, y) of each corner [m]
         """
+    @property
+    def holes(self) -> list[list[tuple[float, float]]]:
+        """
+        (x, y) of each corner of each hole [m]
+        """
+
+class Polyline:
+    """
+    A wall of no thickness: at least 2 points (x, y) [m], neighbours at least 0.01 m apart. It may cross itself, and is closed if it ends where it begins.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __init__(
+        self, points: collections.abc.Sequence[collections.abc.Sequence[float]]
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    @property
+    def points(self) -> list[tuple[float, float]]:
+        """
+        (x, y) of each point [m]
+        """
 
 class World:
     """
@@ -1327,8 +1355,8 @@ class World:
 
     Parameters: width, height of the arena in [0.5, 1000] m; start (x, y, heading) and target
     (x, y) inside it and outside every obstacle, in metres and degrees; obstacles, a list of
-    Circle, Rectangle and Polygon; origin (x, y), the arena's corner of least x and y, each
-    within 100 000 m of 0. Raises InvalidValue.
+    Circle, Rectangle, Polygon and Polyline; origin (x, y), the arena's corner of least x and
+    y, each within 100 000 m of 0. Raises InvalidValue.
     """
     @staticmethod
     def from_json(text: str) -> World:
@@ -1361,7 +1389,7 @@ class World:
         height: typing.SupportsFloat | typing.SupportsIndex = 5.0,
         start: collections.abc.Sequence[float] = (0.5, 0.5, 0.0),
         target: collections.abc.Sequence[float] = (4.5, 4.5),
-        obstacles: collections.abc.Sequence[Circle | Rectangle | Polygon] = [],
+        obstacles: collections.abc.Sequence[Circle | Rectangle | Polygon | Polyline] = [],
         name: str = "",
         description: str = "",
         origin: collections.abc.Sequence[float] = (0.0, 0.0),
@@ -1418,9 +1446,9 @@ class World:
         For people.
         """
     @property
-    def obstacles(self) -> list[Circle | Rectangle | Polygon]:
+    def obstacles(self) -> list[Circle | Rectangle | Polygon | Polyline]:
         """
-        Circle, Rectangle and Polygon, as a list.
+        Circle, Rectangle, Polygon and Polyline, as a list.
         """
     @property
     def origin(self) -> tuple[float, float]:

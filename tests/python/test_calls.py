@@ -57,6 +57,14 @@ WORLD = World.load("empty")
             lambda: devlearn.Polygon([(1, 2), (3,)]),
             "Polygon.corners: got [(1, 2), (3,)]; expected a",
         ),
+        (
+            lambda: devlearn.Polygon([(1, 2), (3, 2), (3, 3)], holes=[[(2, 2), 5]]),
+            "Polygon.holes: got [[(2, 2), 5]]; expected a list, each a list, each two numbers",
+        ),
+        (
+            lambda: devlearn.Polyline([(1, 2), (3,)]),
+            "Polyline.points: got [(1, 2), (3,)]; expected a list, each two numbers",
+        ),
         (lambda: devlearn.shortest_path(WORLD), "expected a Robot, as Robot(world) makes"),
         (
             lambda: Robot(WORLD).step((1, 2), 1),

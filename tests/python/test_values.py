@@ -46,7 +46,8 @@ def things():
             devlearn.Random(3, "x"), trial.step(), trial.learner.explain(0, [True] * 4 + [False]),
             trial.learner.last_choice, devlearn.Choice(1), devlearn.Pose(1, 2, 3), RobotDef(),
             devlearn.Circle((1, 1), 1), devlearn.Rectangle((1, 1), (1, 1)),
-            devlearn.Polygon([(1, 1), (2, 1), (2, 2)]), devlearn.StateEvaluation(),
+            devlearn.Polygon([(1, 1), (2, 1), (2, 2)]), devlearn.Polyline([(1, 1), (2, 1)]),
+            devlearn.StateEvaluation(),
             devlearn.LearnerConfig(), devlearn.TrialConfig(), trial.learner.situation(760),
             devlearn.AdaptiveConfig(), adaptive.learner.last_choice,
             adaptive.learner.situation(760), adaptive.learner.last_choice.recollections[0],
@@ -57,6 +58,7 @@ def things():
 
 
 THINGS = things()
+CORNERS = [(1, 1), (2, 1), (2, 2)]
 
 
 @pytest.mark.parametrize("name", THINGS)
@@ -114,6 +116,16 @@ def test_its_repr_says_more_than_where_it_lies(name):
         (lambda: devlearn.Rectangle((1, 1), (1, 1), 400), "Rectangle.angle: got 400"),
         (lambda: devlearn.Polygon([(1, 1), (2, 2)]), "Polygon.corners: got 2 corners"),
         (lambda: devlearn.Polygon([(1, 1), (2, 2), (3, np.inf)]), "Polygon.corners[2][1]: got inf"),
+        (lambda: devlearn.Polygon(CORNERS, [[]]), "Polygon.holes[0]: got 0 corners"),
+        (
+            lambda: devlearn.Polygon(CORNERS, [CORNERS, [*CORNERS, (1, np.nan)]]),
+            "Polygon.holes[1][3][1]: got nan",
+        ),
+        (
+            lambda: devlearn.Polyline([(1, 1)]),
+            "Polyline.points: got 1 points; expected 2 to 100000",
+        ),
+        (lambda: devlearn.Polyline([(1, 1), (np.inf, 1)]), "Polyline.points[1][0]: got inf"),
     ],
 )
 def test_a_shape_that_cannot_be_is_refused_where_it_is_made(make, says):

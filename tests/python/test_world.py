@@ -13,7 +13,7 @@ import jsonschema
 import numpy as np
 import pytest
 from conftest import refused
-from devlearn import Circle, FileError, Polygon, Pose, Rectangle, World
+from devlearn import Circle, FileError, Polygon, Polyline, Pose, Rectangle, World
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -23,10 +23,23 @@ VALIDATOR = jsonschema.validators.validator_for(SCHEMA)(SCHEMA)
 inside = st.floats(0.3, 4.7)
 points = st.tuples(inside, inside)
 sizes = st.floats(0.02, 1)
+
+
+def square(center, half):
+    x, y = center
+    return [(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)]
+
+
+def frame(center, half, share):
+    return Polygon(square(center, half), [square(center, share * half)])
+
+
 obstacles = st.one_of(
     st.builds(Circle, points, sizes),
     st.builds(Rectangle, points, st.tuples(sizes, sizes), st.floats(-360, 360)),
     st.builds(Polygon, st.tuples(points, points, points)),
+    st.builds(frame, points, st.floats(0.1, 1), st.floats(0.2, 0.9)),
+    st.builds(Polyline, st.lists(points, min_size=2, max_size=5)),
 )
 
 
@@ -192,6 +205,11 @@ def test_every_field_out_of_order_is_refused_by_its_name(paper):
         (["obstacles", 2, "corners"], [[1, 1], [2, 2]], "obstacles[2].corners"),
         (["obstacles", 2, "corners", 1], [1], "obstacles[2].corners[1]"),
         (["obstacles", 2, "corners", 1, 0], "1", "obstacles[2].corners[1][0]"),
+        (["obstacles", 2, "holes"], {}, "obstacles[2].holes"),
+        (["obstacles", 2, "holes"], [[[1, 1], [2, 2]]], "obstacles[2].holes[0]"),
+        (["obstacles", 2, "points"], [[1, 1], [2, 2]], "obstacles[2].points"),
+        (["obstacles", 2], {"shape": "polyline", "points": [[1, 1]]}, "obstacles[2].points"),
+        (["obstacles", 2], {"shape": "polyline", "points": [[1, 1], 2]}, "obstacles[2].points[1]"),
     ]:
         assert refused_field(put(path, value)) == field
     for field in ("format", "version", "arena", "start", "target", "obstacles"):
@@ -331,11 +349,16 @@ def test_numbers_of_numpy_and_sequences_of_any_kind_are_taken():
             Circle(np.array([2, 1]), np.float64(0.2)),
             Rectangle((2, 2), [1, 0.2]),
             Polygon(np.array([(1, 3), (1.5, 3), (1.2, 3.5)])),
+            Polygon(square((3, 1), 0.5), np.array([square((3, 1), 0.3)])),
+            Polyline(np.array([(1, 4), (2, 4)])),
         ),
     )
     assert (world.width, world.start, world.target) == (4, (0.5, 0.5, 90), (3, 3))
-    assert [type(o) for o in world.obstacles] == [Circle, Rectangle, Polygon]
+    assert [type(o) for o in world.obstacles] == [Circle, Rectangle, Polygon, Polygon, Polyline]
     assert world.obstacles[2].corners == [(1, 3), (1.5, 3), (1.2, 3.5)]
+    assert world.obstacles[2].holes == []
+    assert world.obstacles[3].holes == [square((3, 1), 0.3)]
+    assert world.obstacles[4].points == [(1, 4), (2, 4)]
 
 
 def test_what_a_world_shows_cannot_change_it(paper):
@@ -362,6 +385,12 @@ def test_what_a_world_shows_cannot_change_it(paper):
         ("obstacles[0].corners", {"obstacles": [Polygon([(1, 1), (2, 2), (3, 3)])]}),
         ("obstacles[0].corners", {"obstacles": [Polygon([(1, 1), (2, 2), (2, 1), (1, 2)])]}),
         ("obstacles[0].corners[1]", {"obstacles": [Polygon([(1, 1), (1.001, 1), (2, 2)])]}),
+        ("obstacles[0].holes[0]", {"obstacles": [frame((2, 2), 0.5, 1)]}),
+        ("obstacles[0].holes[0]", {"obstacles": [frame((2, 2), 0.5, 2)]}),
+        ("obstacles[0].holes[0][1]", {"obstacles": [frame((2, 2), 0.5, 0.005)]}),
+        ("obstacles[0].points[1]", {"obstacles": [Polyline([(1, 1), (1, 1)])]}),
+        ("start", {"obstacles": [Polyline([(0, 0), (1, 1)])]}),
+        ("target", {"obstacles": [Polyline([(4.5, 1), (4.5, 5)])]}),
         ("name", {"name": "x" * 10_001}),
     ],
 )
@@ -420,6 +449,8 @@ def test_obstacles_are_values():
         lambda: Circle((1, 2), 0.3),
         lambda: Rectangle((1, 2), (0.3, 0.4), 5),
         lambda: Polygon([(1, 2), (2, 2), (2, 3)]),
+        lambda: frame((1, 2), 1, 0.5),
+        lambda: Polyline([(1, 2), (2, 2)]),
     ):
         obstacle = make()
         assert obstacle == make()
@@ -428,15 +459,16 @@ def test_obstacles_are_values():
         assert obstacle != Circle((1, 2), 0.30001)
         assert obstacle != "x"
         assert eval(repr(obstacle), vars(devlearn)) == obstacle
+    assert frame((1, 2), 1, 0.5) != Polygon(square((1, 2), 1))
 
 
 # --- distances -----------------------------------------------------------------------------------
 
 
-def segment_distances(corners, x, y):
-    """Least distance from each point to the sides of an outline."""
+def segment_distances(points, x, y):
+    """Least distance from each point to the way from point to point."""
     least = np.full(np.shape(x), np.inf)
-    for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0)):
+    for (ax, ay), (bx, by) in zip(points, points[1:]):
         along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
         along = np.clip(along, 0, 1)
         least = np.minimum(least, np.hypot(x - ax - along * (bx - ax), y - ay - along * (by - ay)))
@@ -463,8 +495,14 @@ def distance(obstacle, x, y):
         u = (x - cx) * np.cos(a) + (y - cy) * np.sin(a)
         v = (y - cy) * np.cos(a) - (x - cx) * np.sin(a)
         return np.hypot(np.maximum(0, np.abs(u) - w / 2), np.maximum(0, np.abs(v) - h / 2))
+    if isinstance(obstacle, Polyline):
+        return segment_distances(obstacle.points, x, y)
     inside = winds_around(obstacle.corners, x, y)
-    return np.where(inside, 0, segment_distances(obstacle.corners, x, y))
+    for hole in obstacle.holes:
+        inside &= ~winds_around(hole, x, y)
+    rings = [obstacle.corners, *obstacle.holes]
+    least = np.min([segment_distances([*ring, ring[0]], x, y) for ring in rings], axis=0)
+    return np.where(inside, 0, least)
 
 
 @given(st.lists(obstacles, min_size=1, max_size=6), st.integers(0, 2**32 - 1))

@@ -22,6 +22,9 @@ constexpr double kReachMargin = 0.05;
 // No more of an edge takes part than lies so far beyond what can be reached [m], so that floats
 // lose nothing to faraway corners.
 constexpr double kEdgeMargin = 1.0;
+// Where a thin wall ends, each of its sides takes in so much of the other's [m], more than floats
+// may be off: what comes straight at the end is on one of them, or on both.
+constexpr double kOverlap = 1e-6;
 
 Edge near_part(const Edge& edge, Point point, double reach) {
   const double length = distance(edge.a, edge.b);
@@ -37,7 +40,22 @@ Edge near_part(const Edge& edge, Point point, double reach) {
     part.b = along(edge.a, unit, foot + half);
     part.after = along(part.b, unit, 1.0);
   }
+  // A thin wall ends where an edge leads on to its own other side.
+  if ((edge.before == edge.b && foot <= half) || (edge.after == edge.a && foot + half >= length)) {
+    const Point left{-unit.y, unit.x};
+    part.a = along(part.a, left, kOverlap);
+    part.b = along(part.b, left, kOverlap);
+  }
   return part;
+}
+
+// Whether the way p-q leads through an edge from its front.
+bool passes(b2Vec2 p, b2Vec2 q, const b2EdgeShape& edge) {
+  const auto left = [](b2Vec2 from, b2Vec2 to, b2Vec2 of) {
+    return b2Cross(to - from, of - from) > 0.0f;
+  };
+  const b2Vec2 a = edge.m_vertex1, b = edge.m_vertex2;
+  return !left(a, b, p) && left(a, b, q) && left(p, q, a) != left(p, q, b);
 }
 
 }  // namespace
@@ -110,6 +128,9 @@ Drive drive_in_box2d(const Scene& scene, int iterations) {
     physics.Step(scene.substep, iterations, kPositionIterations);
     for (const b2ContactEdge* c = body->GetContactList(); c && !drive.touched; c = c->next) {
       drive.touched = c->contact->IsTouching();
+    }
+    for (const b2EdgeShape& edge : scene.edges) {
+      drive.passed = drive.passed || passes(place, body->GetPosition(), edge);
     }
     // A step that changes nothing is followed by others like it.
     if (body->GetPosition() == place && body->GetLinearVelocity() == velocity) break;

@@ -40,6 +40,7 @@ struct Scene {
 struct Drive {
   Point moved;           ///< from where it began
   bool touched = false;  ///< anything, at any time
+  bool passed = false;   ///< its centre, through an edge
 };
 
 /// To be called before any drive, from any thread. Box2D keeps a table of kinds of contacts in a

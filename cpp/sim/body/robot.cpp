@@ -74,10 +74,10 @@ Robot::Move Robot::step(const Pose& pose, int motion) const {
     const Pose end =
         drive->touched ? Pose{pose.x + drive->moved.x, pose.y + drive->moved.y, heading} : straight;
     const double depth = iterations == kFewIterations ? kShallow : kSlop;
-    if (world_->clearance({end.x, end.y}, true) >= def_.radius - depth)
+    if (!drive->passed && world_->clearance({end.x, end.y}, true) >= def_.radius - depth)
       return {end, drive->touched};
   }
-  // Deeper than the slop even so: the body stays where it was, which is no deeper.
+  // Deeper than the slop even so, or out on the other side: the body stays where it was.
   return {{pose.x, pose.y, heading}, true};
 }
 

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "devlearn/world.hpp"
 
 // The plane geometry that world and robot share.
 namespace devlearn {
+
+/// Corners joined all around, the last one with the first.
+using Ring = std::vector<Point>;
 
 /// One straight piece of an obstacle's outline or a wall, solid on its left: a-b, and the corners
 /// next to it.

@@ -10,57 +10,53 @@
 #include <utility>
 #include <vector>
 
-#include "devlearn/world.hpp"
+#include "world/exact.hpp"
+#include "world/geometry.hpp"
 
-// Whether an outline crosses or touches itself, in O(n log n) and without rounding errors.
+// Whether rings cross or touch, and which lies in which: in O(n log n) and without rounding errors.
 namespace devlearn {
 
-/// The sign of the turn a-b-c, exact: 1 to the left, -1 to the right, 0 straight.
-inline int turn(Point a, Point b, Point c) {
-  const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
-  const double area = left - right;
-  // Shewchuk's filter: beyond this bound rounding cannot have changed the sign.
-  if (std::abs(area) > 3.4e-16 * (std::abs(left) + std::abs(right))) return area > 0.0 ? 1 : -1;
-
-  // Sums the twelve halves of six exact products as Shewchuk's growing expansion.
-  double parts[12];
-  int count = 0;
-  const auto add = [&](double value) {
-    for (int i = 0; i < count; ++i) {
-      const double sum = value + parts[i], taken = sum - value;
-      parts[i] = (value - (sum - taken)) + (parts[i] - taken);
-      value = sum;
-    }
-    parts[count++] = value;
-  };
-  const auto add_product = [&](double u, double v) {
-    const double product = u * v;
-    add(std::fma(u, v, -product));
-    add(product);
-  };
-  add_product(a.x, b.y);
-  add_product(-a.x, c.y);
-  add_product(b.x, c.y);
-  add_product(-b.x, a.y);
-  add_product(c.x, a.y);
-  add_product(-c.x, b.y);
-  while (--count >= 0) {
-    if (parts[count] != 0.0) return parts[count] > 0.0 ? 1 : -1;
-  }
-  return 0;
-}
-
-/// Shamos and Hoey's sweep: passes over the corners from left to right and compares only edges
-/// that become neighbours on the sweep line.
-class SelfContact {
+/// Shamos and Hoey's sweep: passes over the corners of all rings from left to right and compares
+/// only edges that become neighbours on the sweep line.
+class RingSweep {
  public:
-  explicit SelfContact(const std::vector<Point>& corners) : corners_(corners) {}
+  /// An edge by its first corner.
+  struct EdgeOf {
+    std::size_t ring, corner;
+  };
 
-  /// Two edges (each named by its first corner) that share a point they should not.
-  std::optional<std::pair<std::size_t, std::size_t>> find() const {
+  /// Of rings of at least 3 corners.
+  explicit RingSweep(const std::vector<const Ring*>& rings)
+      : around_(rings.size()), counter_clockwise_(rings.size()) {
+    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
+      const std::size_t first = corners_.size(), count = rings[ring]->size();
+      corners_.insert(corners_.end(), rings[ring]->begin(), rings[ring]->end());
+      for (std::size_t i = 0; i < count; ++i) {
+        links_.push_back({ring, first + (i + count - 1) % count, first + (i + 1) % count});
+      }
+      first_.push_back(first);
+    }
+  }
+
+  /// Two edges that share a point they should not, in the order of their rings.
+  std::optional<std::pair<EdgeOf, EdgeOf>> contact() {
+    const auto found = sweep();
+    if (!found) return std::nullopt;
+    return std::pair{named(found->first), named(found->second)};
+  }
+
+  /// The ring directly around a ring, if any; once there is no contact.
+  std::optional<std::size_t> around(std::size_t ring) const { return around_[ring]; }
+
+ private:
+  struct Link {
+    std::size_t ring, before, next;
+  };
+
+  std::optional<std::pair<std::size_t, std::size_t>> sweep() {
     const std::size_t n = corners_.size();
     for (std::size_t i = 0; i < n; ++i) {
-      if (doubles_back(i)) return std::pair{(i + n - 1) % n, i};
+      if (doubles_back(i)) return std::minmax(before(i), i);
     }
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -72,8 +68,9 @@ class SelfContact {
     const auto below = [this](std::size_t s, std::size_t t) { return lies_below(s, t); };
     std::set<std::size_t, decltype(below)> line(below);
     std::vector<decltype(line.begin())> place(n);
+    std::vector<bool> met(first_.size());
     for (const std::size_t corner : order) {
-      const std::size_t edges[] = {(corner + n - 1) % n, corner};
+      const std::size_t edges[] = {before(corner), corner};
       for (const std::size_t edge : edges) {
         if (last(edge) != corner) continue;
         const auto above = line.erase(place[edge]);
@@ -84,19 +81,29 @@ class SelfContact {
       for (const std::size_t edge : edges) {
         if (first(edge) != corner) continue;
         const auto here = place[edge] = line.insert(edge).first;
-        if (here != line.begin() && meet(*std::prev(here), edge)) {
-          return std::minmax(*std::prev(here), edge);
-        }
+        const bool lowest = here == line.begin();
+        if (!lowest && meet(*std::prev(here), edge)) return std::minmax(*std::prev(here), edge);
         if (std::next(here) != line.end() && meet(edge, *std::next(here))) {
           return std::minmax(edge, *std::next(here));
         }
+        const std::size_t ring = links_[edge].ring;
+        if (met[ring]) continue;
+        met[ring] = true;
+        counter_clockwise_[ring] =
+            turn(corners_[before(corner)], corners_[corner], corners_[next(corner)]) > 0;
+        if (!lowest) around_[ring] = around_above(*std::prev(here));
       }
     }
     return std::nullopt;
   }
 
- private:
-  std::size_t next(std::size_t i) const { return i + 1 == corners_.size() ? 0 : i + 1; }
+  EdgeOf named(std::size_t edge) const {
+    const std::size_t ring = links_[edge].ring;
+    return {ring, edge - first_[ring]};
+  }
+
+  std::size_t before(std::size_t i) const { return links_[i].before; }
+  std::size_t next(std::size_t i) const { return links_[i].next; }
   bool comes_first(std::size_t i, std::size_t j) const {
     const Point a = corners_[i], b = corners_[j];
     return a.x < b.x || (a.x == b.x && a.y < b.y);
@@ -109,12 +116,17 @@ class SelfContact {
     return comes_first(edge, next(edge)) ? next(edge) : edge;
   }
 
+  // The innermost ring around what lies directly above an edge.
+  std::optional<std::size_t> around_above(std::size_t edge) const {
+    const std::size_t ring = links_[edge].ring;
+    const bool inside_above = counter_clockwise_[ring] == (first(edge) == edge);
+    return inside_above ? ring : around_[ring];
+  }
+
   // Whether the two edges at a corner lie on top of each other.
   bool doubles_back(std::size_t i) const {
-    const Point before = corners_[(i + corners_.size() - 1) % corners_.size()], here = corners_[i],
-                after = corners_[next(i)];
-    return turn(before, here, after) == 0 &&
-           (before.x - here.x) * (after.x - here.x) + (before.y - here.y) * (after.y - here.y) > 0;
+    const Point before = corners_[this->before(i)], here = corners_[i], after = corners_[next(i)];
+    return turn(before, here, after) == 0 && dot(before - here, after - here) > 0.0;
   }
 
   // The order of two edges on the sweep line, decided where the later one enters it.
@@ -141,7 +153,11 @@ class SelfContact {
            (side_d == 0 && within(d, a, b));
   }
 
-  const std::vector<Point>& corners_;
+  std::vector<Point> corners_;      // of all rings
+  std::vector<Link> links_;         // a corner
+  std::vector<std::size_t> first_;  // a ring's first corner
+  std::vector<std::optional<std::size_t>> around_;
+  std::vector<bool> counter_clockwise_;
 };
 
 }  // namespace devlearn

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "world/exact.hpp"
 #include "world/geometry.hpp"
 
 namespace devlearn {
@@ -48,25 +49,29 @@ bool reaches(const Circle& circle, Point p, double reach) {
 
 }  // namespace
 
-Surfaces::Surfaces(const Box& arena, std::vector<std::vector<Point>> outlines,
-                   std::vector<Circle> circles)
+Surfaces::Surfaces(const Box& arena, const std::vector<std::vector<Ring>>& outlines,
+                   const std::vector<Ring>& thin_walls, std::vector<Circle> circles)
     : arena_(arena), circles_(std::move(circles)) {
   // Clockwise, since walls are solid on the outside.
   const auto [low, high] = arena;
-  add_edges({low, {low.x, high.y}, high, {high.x, low.y}});
-  for (std::vector<Point>& corners : outlines) {
-    add_edges(corners);
-    Box bound{corners[0], corners[0]};
-    for (const Point& corner : corners) bound = bound.joined({corner, corner});
-    outlines_.push_back({std::move(corners), bound});
+  add_edges({low, {low.x, high.y}, high, {high.x, low.y}}, kNone);
+  std::vector<Box> outline_bounds;
+  for (const std::vector<Ring>& rings : outlines) {
+    const auto first = static_cast<std::uint32_t>(edges_.size());
+    for (const Ring& ring : rings) add_edges(ring, static_cast<std::uint32_t>(outlines_.size()));
+    Box bound = bound_of(edges_[first]);
+    for (std::size_t i = first; i < edges_.size(); ++i) bound = bound.joined(bound_of(edges_[i]));
+    outlines_.push_back({first, static_cast<std::uint32_t>(edges_.size()), bound});
+    outline_bounds.push_back(bound);
   }
+  bounds_ = BoxTree(outline_bounds);
+  for (const Ring& ring : thin_walls) add_edges(ring, kNone);
   std::vector<Box> bounds;
   for (std::size_t i = kWalls; i < edges_.size() + circles_.size(); ++i) {
     const auto surface = static_cast<std::uint32_t>(i);
     bounds.push_back(
         apply(surface, [](const auto& shape) { return bound_of(shape).grown_by(kMargin); }));
   }
-  for (const Outline& outline : outlines_) bounds.push_back(outline.bound);
   near_ = BoxTree(bounds);
   root_ = {{low.x - kBorder, low.y - kBorder},
            std::max(high.x - low.x, high.y - low.y) + 2.0 * kBorder};
@@ -74,11 +79,11 @@ Surfaces::Surfaces(const Box& arena, std::vector<std::vector<Point>> outlines,
   build();
 }
 
-void Surfaces::add_edges(const std::vector<Point>& corners) {
-  const std::size_t n = corners.size();
+void Surfaces::add_edges(const Ring& ring, std::uint32_t outline) {
+  const std::size_t n = ring.size();
   for (std::size_t i = 0; i < n; ++i) {
-    edges_.push_back(
-        {corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n], corners[(i + 2) % n]});
+    edges_.push_back({ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n], ring[(i + 2) % n]});
+    outline_of_.push_back(outline);
   }
 }
 
@@ -89,25 +94,30 @@ void Surfaces::build() {
     Square square;
     Candidates held;
   };
-  std::deque<Unfinished> unfinished(1);
-  Candidates& all = unfinished.front().held;
+  Candidates all;
+  Box bound = root_.box();
   for (std::size_t i = kWalls; i < edges_.size() + circles_.size(); ++i) {
     all.surfaces.push_back(static_cast<std::uint32_t>(i));
+    if (i >= edges_.size() || outline_of_[i] == kNone) continue;
+    all.sides.push_back(static_cast<std::uint32_t>(i));
+    bound = bound.joined(bound_of(edges_[i]));
   }
-  for (std::size_t i = 0; i < outlines_.size(); ++i) {
-    all.outlines.push_back(static_cast<std::uint32_t>(i));
-  }
-  unfinished.front().square = root_;
+  all.middle = bound.grown_by(1.0).low;  // outside of everything
   // What all cells together may come to hold, where surfaces lie so that no split parts them.
-  auto room = static_cast<std::ptrdiff_t>(4096 + 32 * (all.surfaces.size() + all.outlines.size()));
+  auto room = static_cast<std::ptrdiff_t>(4096 + 32 * all.surfaces.size());
 
+  std::deque<Unfinished> unfinished;
+  unfinished.push_back({0, root_, held_in(root_, all)});
   cells_.resize(1);
   for (; !unfinished.empty(); unfinished.pop_front()) {
     const Unfinished here = std::move(unfinished.front());
+    if (filled(here.held)) {
+      cells_[here.cell].kind = Cell::Kind::kFilled;
+      cells_[here.cell].middle = here.held.middle;
+      continue;
+    }
     if (here.held.surfaces.size() <= kFew || here.square.side < kLeastSide || room < 0) {
-      if (here.held.surfaces.size() + here.held.outlines.size() <= kMany) {
-        cells_[here.cell] = listed(here.square, here.held);
-      }
+      if (here.held.surfaces.size() <= kMany) cells_[here.cell] = listed(here.held);
       continue;
     }
     const std::size_t first = cells_.size();
@@ -117,8 +127,7 @@ void Surfaces::build() {
     for (int i = 0; i < 16; ++i) {
       const Square part = here.square.part(i);
       unfinished.push_back({first + static_cast<std::size_t>(i), part, held_in(part, here.held)});
-      const Candidates& held = unfinished.back().held;
-      room -= static_cast<std::ptrdiff_t>(held.surfaces.size() + held.outlines.size());
+      room -= static_cast<std::ptrdiff_t>(unfinished.back().held.surfaces.size());
     }
   }
 }
@@ -139,19 +148,59 @@ Surfaces::Candidates Surfaces::held_in(const Square& square, const Candidates& c
   const double rho = std::sqrt(0.5) * square.side;
   Candidates held;
   for (std::size_t i = 0; i < distances.size(); ++i) {
+    const std::uint32_t surface = candidates.surfaces[i];
     if (distances[i] > least + 2.0 * rho + kMargin) continue;
-    held.surfaces.push_back(candidates.surfaces[i]);
+    held.surfaces.push_back(surface);
+    if (surface >= edges_.size() || outline_of_[surface] == kNone) continue;
+    if (distances[i] <= rho + kMargin) held.sides.push_back(surface);
   }
-  const Box box = square.box().grown_by(kMargin);
-  for (const std::uint32_t outline : candidates.outlines) {
-    if (outlines_[outline].bound.overlaps(box)) held.outlines.push_back(outline);
-  }
+  held.middle = middle_of(square, held.sides);
+  held.around = around(held.middle, candidates);
   return held;
 }
 
-Surfaces::Cell Surfaces::listed(const Square& square, const Candidates& held) {
+// The centre unless a side leads through it; else points of a sequence that fills the square
+// evenly, so that no side holds many of them.
+Point Surfaces::middle_of(const Square& square, const std::vector<std::uint32_t>& sides) const {
+  constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;
+  Point p = square.centre();
+  const auto on = [&](std::uint32_t side) { return distance(side, p) <= kMargin; };
+  for (int i = 1; std::any_of(sides.begin(), sides.end(), on); ++i) {
+    const double u = 0.5 + i * kStepX, v = 0.5 + i * kStepY;
+    p = {square.low.x + square.side * (u - std::floor(u)),
+         square.low.y + square.side * (v - std::floor(v))};
+  }
+  return p;
+}
+
+// From a square's middle to another point of it.
+std::vector<std::uint32_t> Surfaces::around(Point p, const Candidates& candidates) const {
+  std::vector<std::uint32_t> around = candidates.around;
+  for (const std::uint32_t side : candidates.sides) {
+    if (!lies_across(edges_[side], p, candidates.middle)) continue;
+    const std::uint32_t outline = outline_of_[side];
+    const auto place = std::lower_bound(around.begin(), around.end(), outline);
+    if (place != around.end() && *place == outline) {
+      around.erase(place);
+    } else {
+      around.insert(place, outline);
+    }
+  }
+  return around;
+}
+
+// Whether an outline is around it that has no side in it.
+bool Surfaces::filled(const Candidates& held) const {
+  return std::any_of(held.around.begin(), held.around.end(), [&](std::uint32_t outline) {
+    return std::none_of(held.sides.begin(), held.sides.end(),
+                        [&](std::uint32_t side) { return outline_of_[side] == outline; });
+  });
+}
+
+Surfaces::Cell Surfaces::listed(const Candidates& held) {
   Cell cell;
   cell.kind = Cell::Kind::kListed;
+  cell.middle = held.middle;
   const auto end = [this] { return static_cast<std::uint32_t>(held_.size()); };
   cell.first = cell.circles = end();
   for (const std::uint32_t surface : held.surfaces) {
@@ -163,10 +212,17 @@ Surfaces::Cell Surfaces::listed(const Square& square, const Candidates& held) {
     }
   }
   cell.outlines = end();
-  held_.insert(held_.end(), held.outlines.begin(), held.outlines.end());
+  for (auto first = held.sides.begin(); first != held.sides.end();) {
+    const std::uint32_t outline = outline_of_[*first];
+    const auto last = std::find_if(
+        first, held.sides.end(), [&](std::uint32_t side) { return outline_of_[side] != outline; });
+    const bool inside = std::binary_search(held.around.begin(), held.around.end(), outline);
+    held_.push_back(static_cast<std::uint32_t>(last - first) * 2 + (inside ? 1 : 0));
+    held_.insert(held_.end(), first, last);
+    first = last;
+  }
   cell.last = end();
-  cell.centre = square.centre();
-  cell.clearance = distance(cell, cell.centre);
+  cell.clearance = distance(cell, cell.middle);
   return cell;
 }
 
@@ -187,11 +243,11 @@ double Surfaces::distance(Point p) const noexcept { return distance(leaf(p), p);
 // No point is nearer to anything than another one less the way there.
 double Surfaces::distance_at_least(Point p) const noexcept {
   const Cell& cell = leaf(p);
-  return cell.clearance - devlearn::distance(p, cell.centre) - kMargin;
+  return cell.clearance - devlearn::distance(p, cell.middle) - kMargin;
 }
 
 double Surfaces::distance(const Cell& cell, Point p) const noexcept {
-  if (inside_outline(cell, p)) return 0.0;
+  if (inside_any(cell, p)) return 0.0;
   if (cell.kind == Cell::Kind::kSearched) return searched_distance(p);
   double squared = kInfinite;
   for (std::uint32_t i = cell.first; i < cell.circles; ++i) {
@@ -206,13 +262,10 @@ double Surfaces::distance(const Cell& cell, Point p) const noexcept {
   return least;
 }
 
-// Calls meet(surface) as BoxTree::search does, outlines left out.
+// Calls meet(surface) as BoxTree::search does.
 template <typename Meet>
 void Surfaces::search(const Box& place, double& limit, const Meet& meet) const {
-  const auto count = static_cast<std::uint32_t>(edges_.size() + circles_.size());
-  near_.search(place, limit, [&](std::uint32_t i) {
-    if (kWalls + i < count) meet(kWalls + i);
-  });
+  near_.search(place, limit, [&](std::uint32_t i) { meet(kWalls + i); });
 }
 
 double Surfaces::searched_distance(Point p) const noexcept {
@@ -224,35 +277,40 @@ double Surfaces::searched_distance(Point p) const noexcept {
   return least;
 }
 
-bool Surfaces::inside_outline(const Cell& leaf, Point p) const noexcept {
-  bool inside = false;
+bool Surfaces::inside_any(const Cell& leaf, Point p) const noexcept {
+  if (leaf.kind == Cell::Kind::kFilled) return true;
   if (leaf.kind == Cell::Kind::kSearched) {
-    const auto first = static_cast<std::uint32_t>(edges_.size() + circles_.size()) - kWalls;
+    bool any = false;
     double limit = 0.0;
-    near_.search({p, p}, limit, [&](std::uint32_t i) {
-      inside = inside || (i >= first && outlines_[i - first].contains(p));
-    });
+    bounds_.search({p, p}, limit, [&](std::uint32_t i) { any = any || inside(outlines_[i], p); });
+    return any;
   }
-  for (std::uint32_t i = leaf.outlines; i < leaf.last && !inside; ++i) {
-    inside = outlines_[held_[i]].contains(p);
+  // Of each outline twice the number of its sides, and whether the middle lies in it; then these.
+  for (std::uint32_t i = leaf.outlines; i < leaf.last;) {
+    const std::uint32_t head = held_[i++], end = i + head / 2;
+    bool inside = head % 2 != 0;
+    for (; i < end; ++i) inside = inside != lies_across(edges_[held_[i]], p, leaf.middle);
+    if (inside) return true;
   }
-  return inside;
+  return false;
 }
 
-bool Surfaces::Outline::contains(Point p) const noexcept {
-  if (!bound.contains(p)) return false;
+// By a ray to the right, however long.
+bool Surfaces::inside(const Outline& outline, Point p) const noexcept {
+  if (!outline.bound.contains(p)) return false;
   bool inside = false;
-  Point a = corners.back();
-  for (const Point& b : corners) {
-    if (crosses_ray(p, a, b)) inside = !inside;
-    a = b;
-  }
+  double limit = 0.0;
+  search({p, {outline.bound.high.x, p.y}}, limit, [&](std::uint32_t surface) {
+    if (surface < outline.first || surface >= outline.last) return;
+    const Edge& side = edges_[surface];
+    inside = inside != crosses_ray(p, side.a, side.b);
+  });
   return inside;
 }
 
 bool Surfaces::keep_clear_of(Point p, Point q, double room) const noexcept {
   if (std::min(wall_distance(p), wall_distance(q)) <= room) return false;
-  if (inside_outline(leaf(p), p)) return false;
+  if (inside_any(leaf(p), p)) return false;
   bool clear = true;
   double limit = room * room;
   search(Box{p, p}.joined({q, q}).grown_by(kMargin), limit, [&](std::uint32_t surface) {

@@ -18,10 +18,16 @@ namespace devlearn {
 /// the cell is further than rho from the centre, so the nearest there is at most d + rho away, and
 /// what is nearest anywhere in the cell has d_s - rho <= d + rho. These a cell holds; leaving out
 /// the others changes no result, since kMargin exceeds what rounding can do to the comparison.
+///
+/// Of each outline that has edges in a cell it also holds whether the cell's middle lies inside. So
+/// does then any point of the cell that an even number of these edges parts from the middle: the
+/// edges near a point tell, however long the outline is.
 class Surfaces {
  public:
-  /// Of an arena with walls all around, outlines counter-clockwise.
-  Surfaces(const Box& arena, std::vector<std::vector<Point>> outlines, std::vector<Circle> circles);
+  /// Of an arena with walls all around. An outline has rings, of which one holds the others, all
+  /// solid on their left; along thin walls a ring leads there and back.
+  Surfaces(const Box& arena, const std::vector<std::vector<Ring>>& outlines,
+           const std::vector<Ring>& thin_walls, std::vector<Circle> circles);
 
   /// Least distance from p to an obstacle, 0 inside one, infinite where there is none.
   double distance(Point p) const noexcept;
@@ -67,46 +73,56 @@ class Surfaces {
       return {{low.x + i % 4 * quarter, low.y + i / 4 * quarter}, quarter};
     }
   };
-  struct Outline {  // of a polygon or rectangle
-    std::vector<Point> corners;
+  struct Outline {              // of a polygon or rectangle
+    std::uint32_t first, last;  // of its edges
     Box bound;
-    bool contains(Point p) const noexcept;
   };
-  // What a cell may hold. Surfaces are edges by index, then circles by index + edges_.size().
+  static constexpr std::uint32_t kNone = 0xffffffff;  // the outline of walls
+  // What a cell may hold, in order. Surfaces are edges by index, then circles by index +
+  // edges_.size().
   struct Candidates {
-    std::vector<std::uint32_t> surfaces, outlines;
+    std::vector<std::uint32_t> surfaces;  // which may be the nearest
+    std::vector<std::uint32_t> sides;     // edges of outlines that may lead through it
+    Point middle;                         // a point in it that is on none of these
+    std::vector<std::uint32_t> around;    // the outlines that the middle lies in
   };
   struct Cell {
     enum class Kind : std::uint32_t {
-      kSplit,     // into sixteen parts, cells_[first] and what follows, row by row
-      kListed,    // held_ from `first` on: edges, circles, and the outlines that may contain points
+      kSplit,   // into sixteen parts, cells_[first] and what follows, row by row
+      kListed,  // held_ from `first` on: edges, circles, and outlines with their sides (inside_any)
+      kFilled,  // lies in an outline as a whole
       kSearched,  // holds too many to list
     };
     Kind kind = Kind::kSearched;
     std::uint32_t first = 0, circles = 0, outlines = 0, last = 0;
-    Point centre;
-    double clearance = 0.0;  // distance(centre), 0 where the cell is not listed
+    Point middle;
+    double clearance = 0.0;  // distance(middle), 0 where the cell is not listed
   };
 
-  void add_edges(const std::vector<Point>& corners);
+  void add_edges(const Ring& ring, std::uint32_t outline);
   void build();
   Candidates held_in(const Square& square, const Candidates& candidates) const;
-  Cell listed(const Square& square, const Candidates& held);
+  Point middle_of(const Square& square, const std::vector<std::uint32_t>& sides) const;
+  std::vector<std::uint32_t> around(Point p, const Candidates& candidates) const;
+  bool filled(const Candidates& held) const;
+  Cell listed(const Candidates& held);
   template <typename Meet>
   void search(const Box& place, double& limit, const Meet& meet) const;
   double distance(std::uint32_t surface, Point p) const noexcept;
   double distance(const Cell& leaf, Point p) const noexcept;
   double searched_distance(Point p) const noexcept;
   const Cell& leaf(Point p) const noexcept;
-  bool inside_outline(const Cell& leaf, Point p) const noexcept;
+  bool inside_any(const Cell& leaf, Point p) const noexcept;
+  bool inside(const Outline& outline, Point p) const noexcept;
 
   Box arena_;
   std::vector<Edge> edges_;
+  std::vector<std::uint32_t> outline_of_;  // each edge
   std::vector<Circle> circles_;
   std::vector<Outline> outlines_;
 
-  BoxTree
-      near_;  // of all surfaces but the walls, numbered from the first that is none; then outlines
+  BoxTree near_;    // of all surfaces but the walls, numbered from the first that is none
+  BoxTree bounds_;  // of the outlines
 
   Square root_;
   double finest_per_metre_ = 0.0;

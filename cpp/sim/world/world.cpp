@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
@@ -19,12 +20,12 @@ constexpr double kLeastSide = 0.5, kGreatestSide = 1000.0;  // of the arena [m]
 constexpr double kFurthest = 1e5;  // of its origin from 0 [m]; beyond, rounding would show
 constexpr double kLeastSize = 0.01, kGreatestSize = 1000.0;  // of an obstacle [m]
 constexpr double kLeastSpacing = 0.01;                       // of corners [m]; Box2D bears no less
-constexpr double kLeastArea = 1e-4;                          // of a polygon [m^2]
+constexpr double kLeastArea = 1e-4;                          // of a polygon or hole [m^2]
 // What is a centimetre in decimals is one, whatever its corners were rounded to [m, m^2].
 constexpr double kRounding = 1e-9;
 constexpr std::size_t kMostObstacles = 100'000;
-constexpr std::size_t kMostCorners = 100'000;  // of a polygon
-constexpr std::size_t kMostCornersInAll = 1'000'000;
+constexpr std::size_t kMostPoints = 100'000;  // of an outline, a hole or a thin wall
+constexpr std::size_t kMostPointsInAll = 1'000'000;
 constexpr std::size_t kLongestText = 10'000;  // name and description [bytes]
 
 std::string text_of(Point p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ")"; }
@@ -55,7 +56,7 @@ void require_near(const std::string& quantity, Point p, const WorldDef& def) {
 }
 
 // Twice the area enclosed, positive for corners in counter-clockwise order.
-double doubled_area(const std::vector<Point>& corners) {
+double doubled_area(const Ring& corners) {
   double sum = 0.0;
   for (std::size_t i = 2; i < corners.size(); ++i) {
     sum += cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
@@ -63,12 +64,14 @@ double doubled_area(const std::vector<Point>& corners) {
   return sum;
 }
 
-std::vector<Point> counter_clockwise(std::vector<Point> corners) {
-  if (doubled_area(corners) < 0.0) std::reverse(corners.begin(), corners.end());
+Ring turning(Ring corners, bool counter_clockwise) {
+  if ((doubled_area(corners) > 0.0) != counter_clockwise) {
+    std::reverse(corners.begin(), corners.end());
+  }
   return corners;
 }
 
-std::vector<Point> corners_of(const Rectangle& rectangle) {
+Ring corners_of(const Rectangle& rectangle) {
   const Direction along = direction(rectangle.angle);
   const double w = 0.5 * rectangle.width, h = 0.5 * rectangle.height;
   const auto corner = [&](double u, double v) {
@@ -78,35 +81,90 @@ std::vector<Point> corners_of(const Rectangle& rectangle) {
   return {corner(-w, -h), corner(w, -h), corner(w, h), corner(-w, h)};
 }
 
+// A polygon's outline, then its holes.
+std::vector<Ring> rings_of(const Polygon& polygon) {
+  std::vector<Ring> rings{turning(polygon.corners, true)};
+  for (const Ring& hole : polygon.holes) rings.push_back(turning(hole, false));
+  return rings;
+}
+
+// Along a thin wall there and back, or around it on either side.
+std::vector<Ring> rings_of(const Polyline& polyline) {
+  Ring there = polyline.points, back(there.rbegin(), there.rend());
+  if (there.front() == there.back()) {
+    there.pop_back();
+    back.pop_back();
+    return {there, back};
+  }
+  there.insert(there.end(), back.begin() + 1, back.end() - 1);
+  return {there};
+}
+
 // Some formats end a ring with its first corner.
 void open_rings(std::vector<Obstacle>& obstacles) {
+  const auto open = [](Ring& corners) {
+    if (corners.size() > 3 && corners.front() == corners.back()) corners.pop_back();
+  };
   for (Obstacle& obstacle : obstacles) {
     auto* const polygon = std::get_if<Polygon>(&obstacle);
     if (polygon == nullptr) continue;
-    std::vector<Point>& corners = polygon->corners;
-    if (corners.size() > 3 && corners.front() == corners.back()) corners.pop_back();
+    open(polygon->corners);
+    std::for_each(polygon->holes.begin(), polygon->holes.end(), open);
   }
 }
 
-void require_simple(const std::string& quantity, const std::vector<Point>& corners) {
-  const std::size_t n = corners.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double gap = distance(corners[i], corners[(i + 1) % n]);
-    if (!(gap >= kLeastSpacing - kRounding)) {
-      throw InvalidValue(indexed(quantity, (i + 1) % n), to_text(gap) + " m from the corner before",
-                         "corners at least " + to_text(kLeastSpacing) + " m apart");
+void require_spaced(const std::string& quantity, std::size_t index, Point before, Point here) {
+  const double gap = distance(before, here);
+  if (gap >= kLeastSpacing - kRounding) return;
+  throw InvalidValue(indexed(quantity, index), to_text(gap) + " m from the one before",
+                     "neighbours at least " + to_text(kLeastSpacing) + " m apart");
+}
+
+// A polygon's outline or one of its holes, as its file names it.
+struct NamedRing {
+  std::string name;
+  const Ring* corners;
+};
+
+std::vector<NamedRing> named_rings(const std::string& name, const Polygon& polygon) {
+  std::vector<NamedRing> rings{{name + ".corners", &polygon.corners}};
+  for (std::size_t i = 0; i < polygon.holes.size(); ++i) {
+    rings.push_back({indexed(name + ".holes", i), &polygon.holes[i]});
+  }
+  return rings;
+}
+
+void require_simple(const std::vector<NamedRing>& rings) {
+  std::vector<const Ring*> corners;
+  for (const NamedRing& ring : rings) corners.push_back(ring.corners);
+  RingSweep sweep(corners);
+  const char* const kHole = "a hole inside the outline, apart from it and from other holes";
+  if (const auto contact = sweep.contact()) {
+    const auto [first, second] = *contact;
+    const std::string& name = rings[second.ring].name;
+    if (first.ring == second.ring) {
+      throw InvalidValue(name,
+                         "edges from corners " + std::to_string(first.corner) + " and " +
+                             std::to_string(second.corner) + " that cross or touch",
+                         "an outline that neither crosses nor touches itself");
     }
+    throw InvalidValue(name,
+                       "an edge from corner " + std::to_string(second.corner) +
+                           " that crosses or touches the one from corner " +
+                           std::to_string(first.corner) + " of " + rings[first.ring].name,
+                       kHole);
   }
-  if (const auto contact = SelfContact(corners).find()) {
-    throw InvalidValue(quantity,
-                       "edges from corners " + std::to_string(contact->first) + " and " +
-                           std::to_string(contact->second) + " that cross or touch",
-                       "an outline that neither crosses nor touches itself");
-  }
-  const double area = 0.5 * std::abs(doubled_area(corners));
-  if (!(area >= kLeastArea - kRounding)) {
-    throw InvalidValue(quantity, "an area of " + to_text(area) + " m^2",
-                       "at least " + to_text(kLeastArea) + " m^2");
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const double area = 0.5 * std::abs(doubled_area(*rings[i].corners));
+    if (!(area >= kLeastArea - kRounding)) {
+      throw InvalidValue(rings[i].name, "an area of " + to_text(area) + " m^2",
+                         "at least " + to_text(kLeastArea) + " m^2");
+    }
+    const auto around = sweep.around(i);
+    if (i == 0 || around == std::size_t{0}) continue;
+    throw InvalidValue(rings[i].name,
+                       around ? "a hole in " + rings[*around].name : "a hole outside the outline",
+                       kHole);
   }
 }
 
@@ -115,10 +173,17 @@ void require_point(const std::string& quantity, Point p) {
   require_finite(indexed(quantity, 1), p.y);
 }
 
+void require_number(const std::string& quantity, std::size_t count, std::size_t least,
+                    const std::string& of) {
+  if (count >= least && count <= kMostPoints) return;
+  throw InvalidValue(quantity, std::to_string(count) + of,
+                     std::to_string(least) + " to " + std::to_string(kMostPoints) + of);
+}
 void require_corners(const std::string& quantity, std::size_t count) {
-  if (count >= 3 && count <= kMostCorners) return;
-  throw InvalidValue(quantity, std::to_string(count) + " corners",
-                     "3 to " + std::to_string(kMostCorners) + " corners");
+  require_number(quantity, count, 3, " corners");
+}
+void require_points(const std::string& quantity, std::size_t count) {
+  require_number(quantity, count, 2, " points");
 }
 
 // Adds up what the obstacles hold while checking them one by one.
@@ -135,18 +200,17 @@ class ObstacleCheck {
     rectangle.validate(name_);
   }
   void operator()(const Polygon& polygon) {
-    const std::string quantity = name_ + ".corners";
-    const std::size_t count = polygon.corners.size();
-    require_corners(quantity, count);
-    corners_in_all_ += count;
-    if (corners_in_all_ > kMostCornersInAll) {
-      throw InvalidValue("obstacles", std::to_string(corners_in_all_) + " or more corners",
-                         "at most " + std::to_string(kMostCornersInAll) + " corners in all");
+    const std::vector<NamedRing> rings = named_rings(name_, polygon);
+    for (const NamedRing& ring : rings) {
+      require_corners(ring.name, ring.corners->size());
+      add(ring.name, *ring.corners);
+      require_spaced(ring.name, 0, ring.corners->back(), ring.corners->front());
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      require_near(indexed(quantity, i), polygon.corners[i], def_);
-    }
-    require_simple(quantity, polygon.corners);
+    require_simple(rings);
+  }
+  void operator()(const Polyline& polyline) {
+    require_points(name_ + ".points", polyline.points.size());
+    add(name_ + ".points", polyline.points);
   }
 
   void check_all() {
@@ -161,9 +225,36 @@ class ObstacleCheck {
   }
 
  private:
+  void add(const std::string& quantity, const std::vector<Point>& points) {
+    points_in_all_ += points.size();
+    if (points_in_all_ > kMostPointsInAll) {
+      throw InvalidValue("obstacles",
+                         std::to_string(points_in_all_) + " or more corners and points",
+                         "at most " + std::to_string(kMostPointsInAll) + " in all");
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      require_near(indexed(quantity, i), points[i], def_);
+      if (i > 0) require_spaced(quantity, i, points[i - 1], points[i]);
+    }
+  }
+
   const WorldDef& def_;
   std::string name_;
-  std::size_t corners_in_all_ = 0;
+  std::size_t points_in_all_ = 0;
+};
+
+// What surfaces are made of, sorted.
+struct Shapes {
+  std::vector<std::vector<Ring>> outlines;
+  std::vector<Ring> thin_walls;
+  std::vector<Circle> circles;
+
+  void operator()(const Circle& circle) { circles.push_back(circle); }
+  void operator()(const Rectangle& rectangle) { outlines.push_back({corners_of(rectangle)}); }
+  void operator()(const Polygon& polygon) { outlines.push_back(rings_of(polygon)); }
+  void operator()(const Polyline& polyline) {
+    for (Ring& ring : rings_of(polyline)) thin_walls.push_back(std::move(ring));
+  }
 };
 
 void require_place(const World& world, const std::string& quantity, Point p) {
@@ -196,9 +287,18 @@ void Rectangle::validate(const std::string& name) const {
 }
 
 void Polygon::validate(const std::string& name) const {
-  require_corners(name + ".corners", corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    require_point(indexed(name + ".corners", i), corners[i]);
+  for (const NamedRing& ring : named_rings(name, *this)) {
+    require_corners(ring.name, ring.corners->size());
+    for (std::size_t i = 0; i < ring.corners->size(); ++i) {
+      require_point(indexed(ring.name, i), (*ring.corners)[i]);
+    }
+  }
+}
+
+void Polyline::validate(const std::string& name) const {
+  require_points(name + ".points", points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    require_point(indexed(name + ".points", i), points[i]);
   }
 }
 
@@ -213,19 +313,10 @@ World::World(WorldDef def) {
   require_in("arena.origin[1]", def_->origin.y, -kFurthest, kFurthest, "m");
   ObstacleCheck(*def_).check_all();
 
-  std::vector<std::vector<Point>> outlines;
-  std::vector<Circle> circles;
-  for (const Obstacle& obstacle : def_->obstacles) {
-    if (const auto* circle = std::get_if<Circle>(&obstacle)) {
-      circles.push_back(*circle);
-    } else if (const auto* rectangle = std::get_if<Rectangle>(&obstacle)) {
-      outlines.push_back(corners_of(*rectangle));
-    } else {
-      outlines.push_back(counter_clockwise(std::get<Polygon>(obstacle).corners));
-    }
-  }
-  surfaces_ = std::make_shared<Surfaces>(Box{def_->origin, def_->far_corner()}, std::move(outlines),
-                                         std::move(circles));
+  Shapes shapes;
+  for (const Obstacle& obstacle : def_->obstacles) std::visit(shapes, obstacle);
+  surfaces_ = std::make_shared<Surfaces>(Box{def_->origin, def_->far_corner()}, shapes.outlines,
+                                         shapes.thin_walls, std::move(shapes.circles));
 
   require_start(*this);
   devlearn::require_place(*this, "target", def_->target);

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "devlearn/error.hpp"
 #include "devlearn/world.hpp"
@@ -27,6 +28,12 @@ Point point(const json::Node& node) {
   return {x, y};
 }
 
+std::vector<Point> points(const json::Node& node) {
+  std::vector<Point> all;
+  node.each_element([&](const json::Node& one) { all.push_back(point(one)); });
+  return all;
+}
+
 void require_format(const json::Node& world) {
   if (world["format"].text() != kFormat) world["format"].refuse(json::quoted(kFormat));
   const json::Node version = world["version"];
@@ -50,13 +57,19 @@ Obstacle read_obstacle(const json::Node& node) {
     return Rectangle{point(node["center"]), width, height, angle};
   }
   if (shape == "polygon") {
-    node.require_known({"shape", "corners"});
-    Polygon polygon;
-    node["corners"].each_element(
-        [&](const json::Node& corner) { polygon.corners.push_back(point(corner)); });
+    node.require_known({"shape", "corners", "holes"});
+    Polygon polygon{points(node["corners"])};
+    if (node.has("holes")) {
+      node["holes"].each_element(
+          [&](const json::Node& hole) { polygon.holes.push_back(points(hole)); });
+    }
     return polygon;
   }
-  node["shape"].refuse("\"circle\", \"rectangle\" or \"polygon\"");
+  if (shape == "polyline") {
+    node.require_known({"shape", "points"});
+    return Polyline{points(node["points"])};
+  }
+  node["shape"].refuse("\"circle\", \"rectangle\", \"polygon\" or \"polyline\"");
 }
 
 WorldDef read_world(const json::Node& world) {
@@ -98,6 +111,19 @@ std::string json_pair(double x, double y) {
 }
 std::string json_point(Point p) { return json_pair(p.x, p.y); }
 
+// Items as a JSON list, each written by `write`.
+template <typename T, typename Write>
+std::string json_list(const std::vector<T>& items, const Write& write) {
+  std::string text = "[";
+  const char* separator = "";
+  for (const T& item : items) {
+    text += separator + write(item);
+    separator = ", ";
+  }
+  return text + "]";
+}
+std::string json_points(const std::vector<Point>& points) { return json_list(points, json_point); }
+
 struct ObstacleText {
   std::string operator()(const Circle& circle) const {
     return R"({"shape": "circle", "center": )" + json_point(circle.center) + R"(, "radius": )" +
@@ -109,13 +135,13 @@ struct ObstacleText {
            json_number(rectangle.angle) + "}";
   }
   std::string operator()(const Polygon& polygon) const {
-    std::string text = R"({"shape": "polygon", "corners": [)";
-    const char* separator = "";
-    for (const Point& corner : polygon.corners) {
-      text += separator + json_point(corner);
-      separator = ", ";
-    }
-    return text + "]}";
+    // Left out where there are none, as the origin is.
+    const std::string holes =
+        polygon.holes.empty() ? "" : R"(, "holes": )" + json_list(polygon.holes, json_points);
+    return R"({"shape": "polygon", "corners": )" + json_points(polygon.corners) + holes + "}";
+  }
+  std::string operator()(const Polyline& polyline) const {
+    return R"({"shape": "polyline", "points": )" + json_points(polyline.points) + "}";
   }
 };
 

@@ -11,9 +11,10 @@ import numpy.typing as npt
 from matplotlib import patches
 from matplotlib.collections import PatchCollection
 from matplotlib.lines import Line2D
+from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
-from .._core import Circle, Rectangle, Robot, RobotDef, World
+from .._core import Circle, Polygon, Polyline, Rectangle, Robot, RobotDef, World
 from ..analysis.fields import Source, config_of, world_of
 from .style import BLUE, COLUMN, GREEN, INK, OBSTACLE, VERMILLION, legend_below, new_figure, styled
 
@@ -58,6 +59,11 @@ def draw_obstacles(ax: Axes, world: World, **how: Any) -> None:
             patch = patches.Circle((obstacle.center[0], obstacle.center[1]), obstacle.radius, **how)
         elif isinstance(obstacle, Rectangle):
             patch = patches.Polygon(_corners(obstacle), closed=True, **how)
+        elif isinstance(obstacle, Polyline):
+            wall = Path(np.array(obstacle.points, dtype=float))
+            patch = patches.PathPatch(wall, fill=False, joinstyle="round", **how)
+        elif obstacle.holes:
+            patch = patches.PathPatch(_outline(obstacle), **how)
         else:
             patch = patches.Polygon(np.array(obstacle.corners, dtype=float), closed=True, **how)
         if many:
@@ -68,7 +74,9 @@ def draw_obstacles(ax: Axes, world: World, **how: Any) -> None:
         # What lies beyond the walls, where a world lets an obstacle reach into them, is not shown.
         patch.set_clip_path(arena)
     if many:
-        ax.add_collection(PatchCollection(drawn, **how, clip_path=arena))
+        ax.add_collection(
+            PatchCollection(drawn, match_original=True, zorder=how["zorder"], clip_path=arena)
+        )
 
 
 def _corners(rectangle: Rectangle) -> npt.NDArray[np.float64]:
@@ -77,6 +85,20 @@ def _corners(rectangle: Rectangle) -> npt.NDArray[np.float64]:
     angle = math.radians(rectangle.angle)
     turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
     return cast("npt.NDArray[np.float64]", corners @ turn + np.array(rectangle.center))
+
+
+def _outline(polygon: Polygon) -> Path:
+    """Holes turn the other way round, as is usual, so that nothing fills them."""
+
+    def ring(corners: Sequence[tuple[float, float]], turn: int) -> Path:
+        x, y = np.array(corners, dtype=float).T
+        area = np.dot(x - x[0], np.roll(y, -1) - np.roll(y, 1))
+        around = np.stack([x, y], axis=1)[:: int(np.sign(area)) * turn]
+        return Path(np.concatenate([around, around[:1]]), closed=True)
+
+    return Path.make_compound_path(
+        ring(polygon.corners, 1), *(ring(hole, -1) for hole in polygon.holes)
+    )
 
 
 def draw_arena(ax: Axes, world: World) -> None:

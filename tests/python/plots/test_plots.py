@@ -17,7 +17,7 @@ import pytest
 from conftest import refused
 from devlearn import InvalidValue, Kind, WrongType, plots
 from devlearn.plots.panels import panels, shared_legend
-from devlearn.plots.style import COLUMN
+from devlearn.plots.style import COLUMN, OBSTACLE
 from devlearn.record import STEP_COLUMNS
 from handmade import (
     ABANDONMENT,
@@ -32,6 +32,7 @@ from handmade import (
     X,
     hand_made,
 )
+from matplotlib.colors import to_hex
 
 matplotlib.use("Agg")
 
@@ -341,6 +342,32 @@ def test_importing_devlearn_does_not_import_matplotlib():
 
 
 # --- worlds ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("others", [0, 1001])
+@pytest.mark.parametrize("turn", [1, -1])
+def test_holes_are_drawn_free_and_thin_walls_as_lines(turn, others):
+    corners = [(1, 1), (4, 1), (4, 4), (1, 4)]
+    hole = [(2, 2), (3, 2), (3, 3), (2, 3)][::turn]
+    world = devlearn.World(
+        obstacles=[
+            devlearn.Polygon(corners, [hole]),
+            devlearn.Polyline([(4.2, 0.5), (4.8, 0.5), (4.8, 0.9), (4.2, 0.5)]),
+            *[devlearn.Circle((0.05, 4.95), 0.02)] * others,
+        ]
+    )
+    axes = plots.plot_world(world, sonar=False)
+    axes.figure.set_dpi(200)
+    axes.figure.canvas.draw()
+    picture = np.asarray(axes.figure.canvas.buffer_rgba())
+
+    def colour(x, y):
+        column, row = axes.transData.transform((x, y))
+        return to_hex(picture[len(picture) - 1 - int(row), int(column)] / 255).upper()
+
+    assert colour(1.5, 2.5) == OBSTACLE
+    assert colour(2.5, 2.5) == colour(0.3, 2.5) == colour(4.7, 0.7) == "#FFFFFF"
+    assert colour(4.5, 0.5) != "#FFFFFF"
 
 
 def test_a_world_shows_every_obstacle_where_it_is(ax):

@@ -30,18 +30,30 @@ struct Rectangle {
   void validate(const std::string& name) const;
 };
 
-/// Any simple polygon, convex or not, its corners in either direction of turning.
+/// Any simple polygon, convex or not, its corners in either direction of turning; in its holes it
+/// is free to stand.
 struct Polygon {
   std::vector<Point> corners;  ///< at least 3, no two neighbours closer than 0.01 m
+  /// Each such a polygon inside the outline, apart from it and from the others.
+  std::vector<std::vector<Point>> holes = {};
 
   /// Likewise of their number and their numbers; a World sees to what they make together.
   void validate(const std::string& name) const;
 };
 
-using Obstacle = std::variant<Circle, Rectangle, Polygon>;
+/// A wall of no thickness from point to point, which may cross itself; it is closed if it ends
+/// where it begins.
+struct Polyline {
+  std::vector<Point> points;  ///< at least 2, no two neighbours closer than 0.01 m
 
-/// What a world is made of. Centres and corners lie in the arena enlarged by its own size on each
-/// side; limits on numbers are in docs/world-format.md.
+  /// Likewise.
+  void validate(const std::string& name) const;
+};
+
+using Obstacle = std::variant<Circle, Rectangle, Polygon, Polyline>;
+
+/// What a world is made of. Centres, corners and points lie in the arena enlarged by its own size
+/// on each side; limits on numbers are in docs/world-format.md.
 struct WorldDef {
   std::string name;           ///< for people
   std::string description;    ///< for people

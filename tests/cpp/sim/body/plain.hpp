@@ -25,12 +25,17 @@ using namespace devlearn;
 /// Calls f(first, last) for each polygon's and rectangle's edges.
 template <typename F>
 void for_each_outline(const World& world, F f) {
-  const std::vector<Edge>& edges = world.surfaces().edges();
-  for (std::size_t first = 4, i = 4; i < edges.size(); ++i) {
-    if (!(edges[i].b == edges[first].a)) continue;
-    f(edges.begin() + static_cast<std::ptrdiff_t>(first),
-      edges.begin() + static_cast<std::ptrdiff_t>(i + 1));
-    first = i + 1;
+  auto first = world.surfaces().edges().begin() + 4;
+  for (const Obstacle& obstacle : world.def().obstacles) {
+    std::size_t count = std::holds_alternative<Rectangle>(obstacle) ? 4 : 0;
+    if (const auto* polygon = std::get_if<Polygon>(&obstacle)) {
+      count = polygon->corners.size();
+      for (const auto& hole : polygon->holes) count += hole.size();
+    }
+    if (count == 0) continue;
+    const auto last = first + static_cast<std::ptrdiff_t>(count);
+    f(first, last);
+    first = last;
   }
 }
 
@@ -99,7 +104,17 @@ inline Surroundings around(const World& world, Point p, double reach) {
 struct Drive {
   Point moved;
   bool touched = false;
+  bool passed = false;
 };
+
+/// Whether a body's centre on its way p-q goes in at an edge's right and out at its left.
+inline bool passes(Point p, Point q, const Edge& edge) {
+  const Point side = edge.b - edge.a;
+  const double from = cross(side, p - edge.a), to = cross(side, q - edge.a);
+  if (from > 0.0 || to <= 0.0) return false;
+  const double at = dot(side, along(p, q - p, from / (from - to)) - edge.a);
+  return at >= 0.0 && at <= dot(side, side);
+}
 
 /// Drives in a Box2D world, its origin where the body begins, of what is near.
 inline Drive drive(const Surroundings& near, const RobotDef& robot, Point from, double heading,
@@ -123,6 +138,7 @@ inline Drive drive(const Surroundings& near, const RobotDef& robot, Point from, 
     const double foot = dot(from - edge.a, unit), aside = cross(unit, from - edge.a);
     const double half = std::sqrt(std::max(0.0, kept * kept - aside * aside));
     const Point begin = edge.a;
+    const bool begins_wall = edge.before == edge.b, ends_wall = edge.after == edge.a;
     if (foot > half) {
       edge.a = along(begin, unit, foot - half);
       edge.before = along(edge.a, unit, -1.0);
@@ -130,6 +146,10 @@ inline Drive drive(const Surroundings& near, const RobotDef& robot, Point from, 
     if (foot + half < length) {
       edge.b = along(begin, unit, foot + half);
       edge.after = along(edge.b, unit, 1.0);
+    }
+    if ((begins_wall && foot <= half) || (ends_wall && foot + half >= length)) {
+      // The last micrometre of a thin wall's end is on both of its sides.
+      for (Point* p : {&edge.a, &edge.b}) *p = {p->x - 1e-6 * unit.y, p->y + 1e-6 * unit.x};
     }
     b2EdgeShape shape;
     shape.SetOneSided(local(edge.before), local(edge.a), local(edge.b), local(edge.after));
@@ -158,7 +178,12 @@ inline Drive drive(const Surroundings& near, const RobotDef& robot, Point from, 
 
   Drive drive;
   for (int i = 0; i < substeps; ++i) {
+    const b2Vec2 before = body->GetPosition();
     physics.Step(static_cast<float>(robot.sample_time / substeps), iterations, 3);
+    const auto global = [&](b2Vec2 v) { return Point{from.x + v.x, from.y + v.y}; };
+    for (const Edge& edge : near.edges) {
+      drive.passed |= passes(global(before), global(body->GetPosition()), edge);
+    }
     for (const b2ContactEdge* c = body->GetContactList(); c != nullptr; c = c->next) {
       drive.touched = drive.touched || c->contact->IsTouching();
     }
@@ -205,7 +230,7 @@ inline Robot::Move step(const Robot& robot, const Pose& pose, int motion) {
         end.touched ? Pose{pose.x + end.moved.x, pose.y + end.moved.y, heading} : straight;
     const double room =
         std::min(clearance(world, {at.x, at.y}), wall_distance(world, {at.x, at.y}));
-    if (room >= def.radius - depth) return {at, end.touched};
+    if (!end.passed && room >= def.radius - depth) return {at, end.touched};
   }
   return {{from.x, from.y, heading}, true};
 }

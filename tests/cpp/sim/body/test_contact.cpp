@@ -156,6 +156,136 @@ TEST_CASE("Around a circle steps follow the integral of v cos(angle to the tange
   CHECK(worst <= 1.0);
 }
 
+TEST_CASE("Beside its middle a thin wall is met as a thick one, from either side, to the bit") {
+  const World thick = with({Rectangle{{5.0, 5.0}, 8.0, 0.5, 0.0}}, 10.0);
+  const World thin =
+      with({Polyline{{{1.0, 4.75}, {9.0, 4.75}}}, Polyline{{{9.0, 5.25}, {1.0, 5.25}}}}, 10.0);
+  Random random(16, "thin and thick");
+  long contacts = 0, differ = 0;
+  for (int n = 0; n < 200; ++n) {
+    RobotDef def;
+    def.radius = between(random, 0.03, 0.15);
+    def.speed = between(random, 0.02, 0.2);
+    const Robot robot(thick, def), other(thin, def);
+    const double above = 5.25 + def.radius + between(random, -0.004, 0.03);
+    const double x = between(random, 3.5, 6.5);
+    Pose pose{x, n % 2 == 0 ? above : 10.0 - above, between(random, 0.0, 360.0)};
+    for (int i = 0; i < 10; ++i) {
+      const Robot::Move a = robot.step(pose, kAhead), b = other.step(pose, kAhead);
+      differ += !(a.pose == b.pose) || a.collided != b.collided;
+      contacts += a.collided;
+      pose = a.pose;
+    }
+  }
+  CHECK(differ == 0);
+  CHECK(contacts > 500);
+}
+
+TEST_CASE("A room that is a hole is touched as an arena of its outline, to the bit") {
+  const Point low{2.0, 1.5}, high{4.5, 3.5};
+  WorldDef inner;
+  inner.origin = low;
+  inner.width = high.x - low.x;
+  inner.height = high.y - low.y;
+  inner.start = {3.0, 2.5, 0.0};
+  inner.target = {4.0, 3.0};
+  WorldDef around = inner;
+  around.origin = {};
+  around.width = around.height = 6.0;
+  const std::vector<Point> outline{low, {low.x, high.y}, high, {high.x, low.y}};
+  for (const bool turned : {false, true}) {
+    std::vector<Point> hole = outline;
+    if (turned) std::reverse(hole.begin() + 1, hole.end());
+    around.obstacles = {Polygon{{{0.5, 0.5}, {5.5, 0.5}, {5.5, 5.5}, {0.5, 5.5}}, {hole}}};
+    const World arena(inner), room(around);
+    const Robot robot(arena, {}), other(room, {});
+    Random random(17, "room");
+    Pose pose = inner.start;
+    long contacts = 0, differ = 0;
+    double worst = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+      const int motion = random.index(4) == 0 ? static_cast<int>(random.index(5)) : kAhead;
+      const Robot::Move a = robot.step(pose, motion), b = other.step(pose, motion);
+      differ += !(a.pose == b.pose) || a.collided != b.collided;
+      const Point at{a.pose.x, a.pose.y};
+      worst = std::max(worst, std::abs(arena.wall_distance(at) - room.clearance(at)));
+      contacts += a.collided;
+      pose = a.pose;
+    }
+    CHECK(differ == 0);
+    CHECK(worst < 1e-15);
+    CHECK(contacts > 2000);
+  }
+}
+
+namespace {
+
+// A thin wall whose end lies in the middle of the arena, and places seen from there along a
+// heading.
+struct WallEnd {
+  Direction ahead;
+  Point at(double forwards, double left) const {
+    return {5.0 + forwards * ahead.x - left * ahead.y, 5.0 + forwards * ahead.y + left * ahead.x};
+  }
+  double forwards(const Pose& pose) const {
+    return (pose.x - 5.0) * ahead.x + (pose.y - 5.0) * ahead.y;
+  }
+  // With its other end there.
+  Robot robot(Point other, const RobotDef& def) const {
+    return Robot(with({Polyline{{at(0.0, 0.0), other}}}, 10.0), def);
+  }
+};
+
+RobotDef random_body(Random& random) {
+  RobotDef def;
+  def.radius = between(random, 0.01, 0.15);
+  def.speed = between(random, 0.02, 0.3);
+  return def;
+}
+
+}  // namespace
+
+TEST_CASE("Where its way leads beside the end of a thin wall a body gets past it, else not") {
+  Random random(18, "ends");
+  long wrong = 0;
+  double deepest = 0.0;
+  for (int n = 0; n < 400; ++n) {
+    const RobotDef def = random_body(random);
+    const double heading = between(random, 0.0, 360.0);
+    const WallEnd end{direction(heading)};
+    const Robot robot = end.robot(end.at(0.0, 1.0), def);
+    const bool at_wall = n % 2 == 0;
+    const Point from = end.at(-0.5, def.radius * between(random, 0.05, 0.9) * (at_wall ? 1 : -1));
+    Pose pose{from.x, from.y, heading};
+    for (int i = 0; i < 400 && end.forwards(pose) < 0.5; ++i) {
+      pose = robot.step(pose, kAhead).pose;
+      const double room = robot.world().clearance({pose.x, pose.y}, true);
+      deepest = std::max(deepest, def.radius - room);
+    }
+    wrong += at_wall ? std::abs(end.forwards(pose) + def.radius) > 0.011 : end.forwards(pose) < 0.5;
+  }
+  CHECK(wrong == 0);
+  CHECK(deepest <= 0.005);
+}
+
+TEST_CASE("Head-on a body drives up to the end of a thin wall") {
+  Random random(19, "head-on");
+  long wrong = 0, touched = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const RobotDef def = random_body(random);
+    const double heading = n % 4 == 0 ? 90.0 * random.index(4) : between(random, 0.0, 360.0);
+    const WallEnd end{direction(heading)};
+    const Robot robot = end.robot(end.at(1.0, 0.0), def);
+    const double length = def.speed * def.sample_time;
+    const Point from = end.at(-def.radius - between(random, 0.0, 0.9) * length, 0.0);
+    const Robot::Move move = robot.step({from.x, from.y, heading}, kAhead);
+    touched += move.collided;
+    wrong += std::abs(end.forwards(move.pose) + def.radius) > 0.011;
+  }
+  CHECK(wrong == 0);
+  CHECK(touched == 2000);
+}
+
 TEST_CASE("A drive along one surface is solved directly where it can be, along several never") {
   const World world = with({Circle{{2.5, 2.5}, 0.3}, Circle{{2.5, 3.1}, 0.3}});
   const RobotDef robot;

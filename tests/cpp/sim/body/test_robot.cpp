@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,10 +40,12 @@ double ray_distance(const WorldDef& def, Point p, double c, double s) {
     const double u = (c * (a.y - p.y) - s * (a.x - p.x)) / det;
     if (t >= 0.0 && u >= 0.0 && u <= 1.0) nearest = std::min(nearest, t);
   };
+  const auto way = [&](const std::vector<Point>& points) {
+    for (std::size_t i = 1; i < points.size(); ++i) side(points[i - 1], points[i]);
+  };
   const auto outline = [&](const std::vector<Point>& corners) {
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      side(corners[i], corners[(i + 1) % corners.size()]);
-    }
+    way(corners);
+    side(corners.back(), corners.front());
   };
   const Point low = def.origin, high = def.far_corner();
   outline({low, {high.x, low.y}, high, {low.x, high.y}});
@@ -63,8 +66,11 @@ double ray_distance(const WorldDef& def, Point p, double c, double s) {
                            box->center.y + x * std::sin(angle) + y * std::cos(angle)});
       }
       outline(corners);
+    } else if (const auto* polygon = std::get_if<Polygon>(&obstacle)) {
+      outline(polygon->corners);
+      for (const auto& hole : polygon->holes) outline(hole);
     } else {
-      outline(std::get<Polygon>(obstacle).corners);
+      way(std::get<Polyline>(obstacle).points);
     }
   }
   return nearest;
@@ -275,6 +281,60 @@ TEST_CASE("However it is driven at walls, corners and circles, the body stays ou
   CHECK(steps >= 100000);
   CHECK(contacts * 20 >= steps);
   CHECK(stayed * 1000 < steps);
+}
+
+TEST_CASE("Nothing gets out of a room of thin walls, however small and fast it is") {
+  Random random(7, "thin rooms");
+  long steps = 0, contacts = 0, out = 0;
+  double deepest = 0.0;
+  for (int n = 0; n < 400; ++n) {
+    // Spikes and all, in front of more thin walls.
+    std::vector<Point> room = random_ring(random, {2.5, 2.5}, 3 + random.index(6), 0.1, 0.6);
+    WorldDef def;
+    def.obstacles = {random_polyline(random, {2.7, 2.5}), random_polyline(random, {2.3, 2.4})};
+    std::vector<Point> closed = room;
+    closed.push_back(room.front());
+    def.obstacles.emplace_back(Polyline{closed});
+    RobotDef robot_def;
+    robot_def.radius = between(random, 0.01, 0.04);
+    robot_def.speed = random.index(4) == 0 ? between(random, 0.2, 2.0) : between(random, 0.02, 0.2);
+    std::optional<Robot> robot;
+    try {
+      robot.emplace(World(def), robot_def);
+    } catch (const InvalidValue&) {  // corners too close
+      continue;
+    }
+    const auto inside = [&](const Pose& p) {
+      bool odd = false;
+      for (std::size_t i = 0; i < room.size(); ++i) {
+        const Point a = room[i], b = room[(i + 1) % room.size()];
+        const double x = a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+        if ((a.y > p.y) != (b.y > p.y) && x > p.x) odd = !odd;
+      }
+      return odd;
+    };
+    Pose pose;
+    int tries = 0;
+    for (; tries < 1000; ++tries) {
+      pose = {between(random, 1.9, 3.1), between(random, 1.9, 3.1), 0.0};
+      const double clearance = robot->world().clearance({pose.x, pose.y});
+      if (inside(pose) && clearance >= robot_def.radius) break;
+    }
+    if (tries == 1000) continue;
+    for (int i = 0; i < 500; ++i, ++steps) {
+      const int motion = random.index(3) == 0 ? static_cast<int>(random.index(5)) : 2;
+      const Robot::Move step = robot->step(pose, motion);
+      contacts += step.collided;
+      out += inside(pose) && !inside(step.pose);
+      pose = step.pose;
+      deepest =
+          std::max(deepest, robot_def.radius - robot->world().clearance({pose.x, pose.y}, true));
+    }
+  }
+  MESSAGE(steps << " steps, " << contacts << " with contact, deepest " << deepest << " m");
+  CHECK(out == 0);
+  CHECK(deepest <= 0.005);
+  CHECK(contacts > 20'000);
 }
 
 TEST_CASE("A step is a pure function of world, pose and motion") {

@@ -19,36 +19,65 @@ inline devlearn::Point point_in(devlearn::Random& random, double side) {
   return {between(random, 0.0, side), between(random, 0.0, side)};
 }
 
+/// Corners all around a centre, so far from it, in either direction of turning.
+inline std::vector<devlearn::Point> random_ring(devlearn::Random& random, devlearn::Point center,
+                                                unsigned count, double least, double most) {
+  std::vector<devlearn::Point> corners;
+  for (unsigned i = 0; i < count; ++i) {
+    const double angle = 2.0 * 3.14159265358979 * (i + between(random, 0.1, 0.9)) / count;
+    const double reach = between(random, least, most);
+    corners.push_back({center.x + reach * std::cos(angle), center.y + reach * std::sin(angle)});
+  }
+  if (random.index(2) == 1) std::reverse(corners.begin(), corners.end());
+  return corners;
+}
+
 /// A star-shaped polygon, seldom convex.
 inline devlearn::Polygon random_polygon(devlearn::Random& random, devlearn::Point center,
                                         double size) {
-  devlearn::Polygon polygon;
-  const auto count = 3 + random.index(7);
-  for (unsigned i = 0; i < count; ++i) {
-    const double angle = 2.0 * 3.14159265358979 * (i + between(random, 0.1, 0.9)) / count;
-    const double reach = between(random, 0.25, 1.0) * size;
-    polygon.corners.push_back(
-        {center.x + reach * std::cos(angle), center.y + reach * std::sin(angle)});
+  return {random_ring(random, center, 3 + random.index(7), 0.25 * size, size)};
+}
+
+/// One that leads around a hole.
+inline devlearn::Polygon random_frame(devlearn::Random& random, devlearn::Point center,
+                                      double size) {
+  const auto count = 8 + random.index(5);
+  devlearn::Polygon frame{random_ring(random, center, count, 0.7 * size, size)};
+  frame.holes.push_back(random_ring(random, center, 5 + random.index(5), 0.2 * size, 0.5 * size));
+  return frame;
+}
+
+/// A thin wall, which may cross itself, open or closed.
+inline devlearn::Polyline random_polyline(devlearn::Random& random, devlearn::Point from) {
+  devlearn::Polyline wall{{from}};
+  for (auto count = 1 + random.index(5); count > 0; --count) {
+    const double angle = between(random, 0.0, 6.28), length = between(random, 0.1, 0.6);
+    from = {from.x + length * std::cos(angle), from.y + length * std::sin(angle)};
+    wall.points.push_back(from);
   }
-  if (random.index(2) == 1) std::reverse(polygon.corners.begin(), polygon.corners.end());
-  return polygon;
+  if (random.index(2) == 1) wall.points.push_back(wall.points.front());
+  return wall;
 }
 
 inline devlearn::Obstacle random_obstacle(devlearn::Random& random, double side) {
   const devlearn::Point center = point_in(random, side);
   const double size = between(random, 0.1, 0.4);
-  switch (random.index(3)) {
+  switch (random.index(5)) {
     case 0:
       return devlearn::Circle{center, size};
     case 1:
       return devlearn::Rectangle{center, 2.0 * size, between(random, 0.05, 2.0 * size),
                                  between(random, -180.0, 180.0)};
-    default:
+    case 2:
       return random_polygon(random, center, 1.5 * size);
+    case 3:
+      return random_frame(random, center, 3.0 * size);
+    default:
+      return random_polyline(random, center);
   }
 }
 
-/// A square world of circles, rectangles and polygons that overlap each other and the walls.
+/// A square world of obstacles of all shapes that overlap each other and the walls.
 inline devlearn::World random_world(devlearn::Random& random, int obstacles, double side) {
   while (true) {
     devlearn::WorldDef def;
@@ -64,6 +93,23 @@ inline devlearn::World random_world(devlearn::Random& random, int obstacles, dou
   }
 }
 
+/// Calls f of every point that says where an obstacle lies.
+template <typename F>
+void each_point(devlearn::Obstacle& obstacle, const F& f) {
+  if (auto* circle = std::get_if<devlearn::Circle>(&obstacle)) {
+    f(circle->center);
+  } else if (auto* rectangle = std::get_if<devlearn::Rectangle>(&obstacle)) {
+    f(rectangle->center);
+  } else if (auto* polygon = std::get_if<devlearn::Polygon>(&obstacle)) {
+    for (devlearn::Point& p : polygon->corners) f(p);
+    for (auto& hole : polygon->holes) {
+      for (devlearn::Point& p : hole) f(p);
+    }
+  } else {
+    for (devlearn::Point& p : std::get<devlearn::Polyline>(obstacle).points) f(p);
+  }
+}
+
 /// The same world elsewhere.
 inline devlearn::WorldDef shifted(devlearn::WorldDef def, devlearn::Point by) {
   const auto shift = [by](devlearn::Point& p) { p = {p.x + by.x, p.y + by.y}; };
@@ -71,15 +117,7 @@ inline devlearn::WorldDef shifted(devlearn::WorldDef def, devlearn::Point by) {
   shift(def.target);
   def.start.x += by.x;
   def.start.y += by.y;
-  for (devlearn::Obstacle& obstacle : def.obstacles) {
-    if (auto* circle = std::get_if<devlearn::Circle>(&obstacle)) {
-      shift(circle->center);
-    } else if (auto* rectangle = std::get_if<devlearn::Rectangle>(&obstacle)) {
-      shift(rectangle->center);
-    } else {
-      for (devlearn::Point& p : std::get<devlearn::Polygon>(obstacle).corners) shift(p);
-    }
-  }
+  for (devlearn::Obstacle& obstacle : def.obstacles) each_point(obstacle, shift);
   return def;
 }
 

@@ -72,6 +72,36 @@ TEST_CASE("a ring that ends with its first corner is the polygon without it") {
   CHECK_THROWS_AS(of_corners({{1.0, 1.0}, {2.0, 1.0}, {1.0, 1.0}}), InvalidValue);
 }
 
+TEST_CASE("a million points in all are the most, whether of outlines, holes or thin walls") {
+  WorldDef def;
+  def.width = def.height = 1000.0;
+  const auto row = [](double y, int count) {
+    std::vector<Point> points;
+    for (int i = 0; i < count; ++i) points.push_back({10.0 + 0.01 * i, y + (i % 2) * 0.01});
+    return points;
+  };
+  for (int i = 0; i < 8; ++i) def.obstacles.push_back(Polyline{row(10.0 + i, 100'000 - 2)});
+  Polygon comb{row(30.0, 100'000 - 2)};
+  comb.corners.push_back({1011.0, 35.0});
+  comb.corners.push_back({9.0, 35.0});
+  comb.holes.push_back(row(32.0, 100'000 - 2));
+  comb.holes.back().push_back({1010.0, 34.0});
+  comb.holes.back().push_back({10.0, 34.0});
+  def.obstacles.push_back(comb);
+  def.obstacles.push_back(Polyline{row(40.0, 16)});
+  const World most(def);
+  CHECK(most.clearance({500.0, 31.0}) == 0.0);
+  CHECK(most.clearance({500.0, 32.5}) == doctest::Approx(0.49).epsilon(0.03));
+  def.obstacles.push_back(Polyline{row(50.0, 2)});
+  try {
+    World{def};
+    FAIL_CHECK("accepted");
+  } catch (const InvalidValue& e) {
+    CHECK(e.quantity() == "obstacles");
+    CHECK(e.value().find("1000002") != std::string::npos);
+  }
+}
+
 TEST_CASE("the last round can be begun and lived in, and no further one") {
   constexpr std::int32_t kLast = 1 << 30;
   Trial trial{World()};

@@ -37,12 +37,19 @@ std::vector<double> numbers(const WorldDef& def) {
                           def.start.y, def.start.heading, def.target.x, def.target.y};
   for (const Obstacle& obstacle : def.obstacles) {
     all.push_back(static_cast<double>(obstacle.index()));
+    const auto add = [&](const std::vector<Point>& points) {
+      all.push_back(static_cast<double>(points.size()));
+      for (const Point& p : points) all.insert(all.end(), {p.x, p.y});
+    };
     if (const auto* circle = std::get_if<Circle>(&obstacle)) {
       all.insert(all.end(), {circle->center.x, circle->center.y, circle->radius});
     } else if (const auto* box = std::get_if<Rectangle>(&obstacle)) {
       all.insert(all.end(), {box->center.x, box->center.y, box->width, box->height, box->angle});
+    } else if (const auto* polygon = std::get_if<Polygon>(&obstacle)) {
+      add(polygon->corners);
+      for (const auto& hole : polygon->holes) add(hole);
     } else {
-      for (const Point& p : std::get<Polygon>(obstacle).corners) all.insert(all.end(), {p.x, p.y});
+      add(std::get<Polyline>(obstacle).points);
     }
   }
   return all;
@@ -127,6 +134,8 @@ WorldDef with(Obstacle obstacle) {
   return def;
 }
 
+const std::vector<Point> kSquare{{3, 3}, {4, 3}, {4, 4}, {3, 4}};
+
 WorldDef with_polygon(std::vector<Point> corners) { return with(Polygon{std::move(corners)}); }
 
 // --- an independent clearance ------------------------------------------------------------------
@@ -139,15 +148,33 @@ double segment_distance(Point p, Point a, Point b) {
   return static_cast<double>(std::hypot(u - std::clamp(u, 0.0L, length), v));
 }
 
-double distance_by_winding(Point p, const std::vector<Point>& corners) {
-  double least = kInfinite, turned = 0.0;
+double distance_to(Point p, const std::vector<Point>& points, bool closed) {
+  double least = kInfinite;
+  for (std::size_t i = closed ? 0 : 1; i < points.size(); ++i) {
+    const Point before = points[(i + points.size() - 1) % points.size()];
+    least = std::min(least, segment_distance(p, before, points[i]));
+  }
+  return least;
+}
+
+bool winds_around(const std::vector<Point>& corners, Point p) {
+  double turned = 0.0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Point a = corners[i], b = corners[(i + 1) % corners.size()];
-    least = std::min(least, segment_distance(p, a, b));
     turned += std::remainder(std::atan2(b.y - p.y, b.x - p.x) - std::atan2(a.y - p.y, a.x - p.x),
                              2.0 * 3.14159265358979323846);
   }
-  return std::abs(turned) > 3.0 ? 0.0 : least;
+  return std::abs(turned) > 3.0;
+}
+
+double distance_by_winding(Point p, const Polygon& polygon) {
+  double least = distance_to(p, polygon.corners, true);
+  bool inside = winds_around(polygon.corners, p);
+  for (const std::vector<Point>& hole : polygon.holes) {
+    least = std::min(least, distance_to(p, hole, true));
+    inside = inside && !winds_around(hole, p);
+  }
+  return inside ? 0.0 : least;
 }
 
 double plain_clearance(const WorldDef& def, Point p) {
@@ -164,8 +191,10 @@ double plain_clearance(const WorldDef& def, Point p) {
       const double u = std::abs(dx * std::cos(angle) + dy * std::sin(angle)) - 0.5 * box->width;
       const double v = std::abs(dy * std::cos(angle) - dx * std::sin(angle)) - 0.5 * box->height;
       least = std::min(least, std::hypot(std::max(u, 0.0), std::max(v, 0.0)));
+    } else if (const auto* polygon = std::get_if<Polygon>(&obstacle)) {
+      least = std::min(least, distance_by_winding(p, *polygon));
     } else {
-      least = std::min(least, distance_by_winding(p, std::get<Polygon>(obstacle).corners));
+      least = std::min(least, distance_to(p, std::get<Polyline>(obstacle).points, false));
     }
   }
   return least;
@@ -181,16 +210,23 @@ struct GridPoint {
   long x = 0, y = 0;
 };
 
+long area(GridPoint a, GridPoint b, GridPoint c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+bool on(GridPoint p, GridPoint a, GridPoint b) {
+  return area(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) &&
+         std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
+}
+
+bool cross_within(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
+  const auto sign = [](long v) { return (v > 0) - (v < 0); };
+  return sign(area(a, b, c)) * sign(area(a, b, d)) < 0 &&
+         sign(area(c, d, a)) * sign(area(c, d, b)) < 0;
+}
+
 bool simple_on_grid(const std::vector<GridPoint>& corners) {
   const std::size_t n = corners.size();
-  const auto area = [](GridPoint a, GridPoint b, GridPoint c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  };
-  const auto sign = [](long v) { return (v > 0) - (v < 0); };
-  const auto on = [&](GridPoint p, GridPoint a, GridPoint b) {
-    return area(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) &&
-           std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
-  };
   for (std::size_t i = 0; i < n; ++i) {
     const GridPoint a = corners[i], b = corners[(i + 1) % n];
     if (a.x == b.x && a.y == b.y) return false;
@@ -198,10 +234,41 @@ bool simple_on_grid(const std::vector<GridPoint>& corners) {
       const GridPoint c = corners[j], d = corners[(j + 1) % n];
       // No corner lies on an edge but that edge's own two ends.
       if (j != i && j != (i + 1) % n && on(c, a, b)) return false;
-      if (sign(area(a, b, c)) * sign(area(a, b, d)) < 0 &&
-          sign(area(c, d, a)) * sign(area(c, d, b)) < 0) {
-        return false;
-      }
+      if (cross_within(a, b, c, d)) return false;
+    }
+  }
+  return true;
+}
+
+bool meet_on_grid(const std::vector<GridPoint>& one, const std::vector<GridPoint>& other) {
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    for (std::size_t j = 0; j < other.size(); ++j) {
+      const GridPoint a = one[i], b = one[(i + 1) % one.size()];
+      const GridPoint c = other[j], d = other[(j + 1) % other.size()];
+      if (on(a, c, d) || on(c, a, b) || cross_within(a, b, c, d)) return true;
+    }
+  }
+  return false;
+}
+
+// A point that is on no edge.
+bool inside_on_grid(GridPoint p, const std::vector<GridPoint>& corners) {
+  bool inside = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const GridPoint a = corners[i], b = corners[(i + 1) % corners.size()];
+    if ((a.y > p.y) != (b.y > p.y) && (area(a, b, p) > 0) == (b.y > a.y)) inside = !inside;
+  }
+  return inside;
+}
+
+// The first of them is the outline.
+bool polygon_on_grid(const std::vector<std::vector<GridPoint>>& rings) {
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    if (!simple_on_grid(rings[i])) return false;
+    if (i > 0 && !inside_on_grid(rings[i][0], rings[0])) return false;
+    for (std::size_t j = 0; j < rings.size(); ++j) {
+      if (j != i && meet_on_grid(rings[i], rings[j])) return false;
+      if (j != i && j > 0 && inside_on_grid(rings[i][0], rings[j])) return false;
     }
   }
   return true;
@@ -247,6 +314,15 @@ TEST_CASE("An origin of (0, 0) is not written, so that a world keeps its text an
                R"("x": 4.5, "y": 4.5)", R"("x": 260.5, "y": -123.5)"));
   const std::string written = replaced(kText, R"("height": 4)", R"("height": 4, "origin": [0, 0])");
   CHECK(World::parse(written).to_json() == World::parse(kText).to_json());
+}
+
+TEST_CASE("Holes are written where there are any, so that polygons keep their text and hash") {
+  const std::string text = World::parse(kText).to_json(), corners = "[[3, 1], [4, 1.25], [3.5, 2]]";
+  CHECK(text.find("holes") == std::string::npos);
+  CHECK(World::parse(replaced(kText, corners, corners + R"(, "holes": [])")).to_json() == text);
+  const std::string holes = R"(, "holes": [[[3.4, 1.25], [3.6, 1.25], [3.5, 1.5]]])";
+  CHECK(World::parse(replaced(kText, corners, corners + holes)).to_json() ==
+        replaced(text, corners, corners + holes));
 }
 
 TEST_CASE("What may be left out of a file may be left out") {
@@ -383,6 +459,18 @@ TEST_CASE("A file that breaks the format is refused by the path of its field") {
   edited("[4, 1.25]", R"([4, "1.25"])", "obstacles[2].corners[1][1]");
   edited("[4, 1.25]", "4", "obstacles[2].corners[1]");
   edited("[[3, 1], [4, 1.25], [3.5, 2]]", "{}", "obstacles[2].corners");
+  const auto with_holes = [&](const std::string& holes, const std::string& field) {
+    edited("[3.5, 2]]", "[3.5, 2]], \"holes\": " + holes, field);
+  };
+  with_holes("7", "obstacles[2].holes");
+  with_holes("[7]", "obstacles[2].holes[0]");
+  with_holes("[[[3.4, 1.25], [3.6, 1.25], 7]]", "obstacles[2].holes[0][2]");
+  with_holes("[[[3.4, 1.25], [3.6, 1.25], [3.5, \"\"]]]", "obstacles[2].holes[0][2][1]");
+  with_holes("[[[3.4, 1.25], [3.6, 1.25], [3.5, 15]]]", "obstacles[2].holes[0][2][1]");
+  edited(R"("polygon", "corners")", R"("polyline", "corners")", "obstacles[2].corners");
+  edited(R"("polygon", "corners")", R"("polyline", "points": 1, "corners")",
+         "obstacles[2].corners");
+  edited(R"("polygon")", R"("polygon", "points": [])", "obstacles[2].points");
   edited(R"("circle")", R"("blob")", "obstacles[0].shape");
   edited(R"("circle")", "1", "obstacles[0].shape");
   edited(R"({"shape": "circle", "center": [1.5, 1.5], "radius": 0.25})", "7", "obstacles[0]");
@@ -563,6 +651,9 @@ TEST_CASE("A definition out of range is refused by the name of its field") {
     refused(with(Circle{{bad, 3}, 0.1}), "obstacles[1].center[0]");
     refused(with(Rectangle{{3, bad}, 1, 1, 0}), "obstacles[1].center[1]");
     refused(with_polygon({{3, 3}, {4, 3}, {4, bad}}), "obstacles[1].corners[2][1]");
+    refused(with(Polygon{kSquare, {{{3.1, 3.1}, {3.9, 3.1}, {3.5, bad}}}}),
+            "obstacles[1].holes[0][2][1]");
+    refused(with(Polyline{{{3, 3}, {bad, 3}}}), "obstacles[1].points[1][0]");
   }
   WorldDef def;
   def.name = "\xff";
@@ -591,6 +682,108 @@ TEST_CASE("A start or target in an obstacle is refused, on its edge too") {
       refused(def, "target");
     }
   }
+}
+
+TEST_CASE("In a hole it is free to start, on a thin wall it is not") {
+  WorldDef def;
+  def.obstacles = {
+      Polygon{{{1, 1}, {3, 1}, {3, 3}, {1, 3}}, {{{1.5, 1.5}, {2.5, 1.5}, {2.5, 2.5}, {1.5, 2.5}}}},
+      Polyline{{{3.5, 1}, {3.5, 3}, {4.5, 4}}}};
+  def.target = {2.4, 2.0};
+  CHECK(World(def).clearance(def.target) == doctest::Approx(0.1));
+  for (const Point p :
+       {Point{1.5, 2.0}, {2.0, 2.5}, {2.75, 2.0}, {3.5, 2.0}, {3.5, 1.0}, {4, 3.5}}) {
+    def.start = {p.x, p.y, 0.0};
+    refused(def, "start");
+  }
+  def.start = {3.5 + 1e-9, 2.0, 0.0};
+  CHECK_NOTHROW(World{def});
+}
+
+TEST_CASE("Holes that are not inside the outline and apart from each other are refused") {
+  const std::vector<Point> inner{{3.2, 3.2}, {3.5, 3.2}, {3.5, 3.5}, {3.2, 3.5}};
+  const auto holes = [](std::vector<std::vector<Point>> all) {
+    return with(Polygon{kSquare, std::move(all)});
+  };
+  const std::string first = "obstacles[1].holes[0]", second = "obstacles[1].holes[1]";
+  CHECK_NOTHROW(World(holes({inner})));
+  CHECK_NOTHROW(World(holes({inner, {{3.6, 3.2}, {3.9, 3.2}, {3.9, 3.9}}})));
+  refused(holes({{}}), first);
+  refused(holes({inner, {{3.6, 3.2}, {3.9, 3.2}}}), second);
+  refused(holes({{{3.2, 3.2}, {3.5, 3.2}, {3.5, 3.205}}}), first + "[2]");
+  refused(holes({{{3.2, 3.2}, {3.5, 3.5}, {3.5, 3.2}, {3.2, 3.5}}}), first);  // crosses itself
+  refused(holes({{{3.2, 3.2}, {3.22, 3.2}, {3.21, 3.2099}}}), first);         // next to no area
+  refused(holes({kSquare}), first);
+  refused(holes({{{3.5, 3.0}, {3.6, 3.5}, {3.4, 3.5}}}), first);              // touches the outline
+  refused(holes({{{3.5, 3.5}, {4.5, 3.5}, {3.5, 3.7}}}), first);              // crosses it
+  refused(holes({{{4.2, 3.2}, {4.5, 3.2}, {4.5, 3.5}}}), first);              // outside
+  refused(holes({{{2.5, 2.5}, {4.5, 2.5}, {4.5, 4.5}, {2.5, 4.5}}}), first);  // around it
+  refused(holes({inner, {{3.3, 3.3}, {3.4, 3.3}, {3.4, 3.4}}}), second);      // within a hole
+  refused(holes({{{3.3, 3.3}, {3.4, 3.3}, {3.4, 3.4}}, inner}), first);       // likewise
+  refused(holes({inner, {{3.4, 3.4}, {3.8, 3.4}, {3.8, 3.8}}}), second);      // cross each other
+  refused(holes({inner, {{3.5, 3.5}, {3.8, 3.5}, {3.8, 3.8}}}), second);      // touch each other
+  refused(holes({inner, inner}), second);
+}
+
+TEST_CASE("Thin walls have two points or more, no two neighbours on top of each other") {
+  const std::string points = "obstacles[1].points";
+  refused(with(Polyline{}), points);
+  refused(with(Polyline{{{3, 3}}}), points);
+  refused(with(Polyline{{{3, 3}, {3, 3}}}), points + "[1]");
+  refused(with(Polyline{{{3, 3}, {4, 3}, {4.009, 3}}}), points + "[2]");
+  refused(with(Polyline{std::vector<Point>(100'001)}), points);
+  CHECK_NOTHROW(World(with(Polyline{{{3, 3}, {3.01, 3}}})));
+  CHECK_NOTHROW(World(with(Polyline{{{3, 3}, {4, 3}, {3, 3}}})));                  // there and back
+  CHECK_NOTHROW(World(with(Polyline{{{3, 3}, {4, 4}, {4, 3}, {3, 4}, {3, 3}}})));  // crosses itself
+}
+
+TEST_CASE("The sweep agrees with whole-number arithmetic on which holes are right") {
+  Random random(8, "grid holes");
+  const auto scaled = [](const std::vector<GridPoint>& grid) {
+    std::vector<Point> corners;
+    for (const GridPoint& p : grid) {
+      corners.push_back(
+          {2.0 + 0.25 * static_cast<double>(p.x), 2.0 + 0.25 * static_cast<double>(p.y)});
+    }
+    return corners;
+  };
+  const std::vector<GridPoint> bent{{0, 0}, {9, 0}, {9, 9}, {6, 9}, {6, 4}, {4, 4}, {4, 9}, {0, 9}};
+  int right = 0, others = 0, wrong = 0;
+  for (int n = 0; n < 40000; ++n) {
+    std::vector<std::vector<GridPoint>> rings{bent};
+    for (auto count = 1 + random.index(3); count > 0; --count) {
+      const long x = random.index(8), y = random.index(8);
+      const auto span = 2 + random.index(3);
+      std::vector<GridPoint>& ring = rings.emplace_back(3 + random.index(2));
+      for (GridPoint& p : ring) p = {x + random.index(span), y + random.index(span)};
+    }
+    for (auto& ring : rings) {
+      if (random.index(2) == 1) std::reverse(ring.begin(), ring.end());
+    }
+    WorldDef def;
+    def.target = {0.5, 0.7};
+    Polygon polygon{scaled(rings[0])};
+    for (std::size_t i = 1; i < rings.size(); ++i) polygon.holes.push_back(scaled(rings[i]));
+    def.obstacles = {polygon};
+    bool accepted = true;
+    try {
+      World world(def);
+    } catch (const InvalidValue&) {
+      accepted = false;
+    }
+    for (auto& ring : rings) {  // closed ones
+      if (ring.size() > 3 && ring.front().x == ring.back().x && ring.front().y == ring.back().y) {
+        ring.pop_back();
+      }
+    }
+    const bool expected = polygon_on_grid(rings);
+    (expected ? right : others) += 1;
+    wrong += accepted != expected;
+  }
+  MESSAGE(right << " polygons with holes, " << others << " others");
+  CHECK(right > 1000);
+  CHECK(others > 1000);
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("Polygons that Box2D could not bear or nobody could mean are refused") {
@@ -694,6 +887,43 @@ TEST_CASE("Clearance is the distance to the nearest obstacle, and to the walls w
   CHECK(World().clearance({-2.0, 3.0}, true) == 0.0);
 }
 
+TEST_CASE("However long an outline is, the edges near a point tell whether it lies inside") {
+  Random random(9, "long outlines");
+  // A floor of four hundred rooms, and a comb whose teeth lie so close that they are searched for.
+  WorldDef floor;
+  floor.width = floor.height = 20.0;
+  Polygon rooms{{{-1, -1}, {21, -1}, {21, 21}, {-1, 21}}};
+  for (int i = 0; i < 400; ++i) {
+    const Point centre{i % 20 + 0.5, i / 20 + 0.5};
+    rooms.holes.push_back(random_ring(random, centre, 5 + random.index(20), 0.2, 0.48));
+  }
+  floor.obstacles = {rooms};
+  floor.target = {1.5, 1.5};
+  WorldDef combed;
+  combed.width = combed.height = 20.0;
+  Polygon comb;
+  for (int i = 0; i < 800; ++i) {
+    comb.corners.push_back({1.0 + 0.02 * i, 2.0});
+    comb.corners.push_back({1.01 + 0.02 * i, 18.0 + between(random, 0.0, 1.0)});
+  }
+  comb.corners.push_back({17.1, 1.0});
+  comb.corners.push_back({1.0, 1.0});
+  combed.obstacles = {comb};
+  for (const WorldDef& def : {floor, combed}) {
+    const World world(def);
+    long inside = 0, outside = 0, differ = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Point p{between(random, -1.5, 21.5), between(random, -1.5, 21.5)};
+      const double clearance = world.clearance(p);
+      (clearance == 0.0 ? inside : outside) += 1;
+      differ += std::abs(clearance - plain_clearance(def, p)) > 1e-12;
+    }
+    CHECK(differ == 0);
+    CHECK(inside > 500);
+    CHECK(outside > 500);
+  }
+}
+
 TEST_CASE("Leaving far obstacles out changes no bit of a clearance") {
   Random random(5, "rejection");
   long differ = 0;
@@ -795,15 +1025,7 @@ Pose on_lattice(const Pose& pose) { return {on_lattice(pose.x), on_lattice(pose.
 
 WorldDef on_lattice(WorldDef def) {
   const auto round = [](Point& p) { p = {on_lattice(p.x), on_lattice(p.y)}; };
-  for (Obstacle& obstacle : def.obstacles) {
-    if (auto* circle = std::get_if<Circle>(&obstacle)) {
-      round(circle->center);
-    } else if (auto* rectangle = std::get_if<Rectangle>(&obstacle)) {
-      round(rectangle->center);
-    } else {
-      for (Point& p : std::get<Polygon>(obstacle).corners) round(p);
-    }
-  }
+  for (Obstacle& obstacle : def.obstacles) each_point(obstacle, round);
   def.start = on_lattice(def.start);
   round(def.target);
   return def;
