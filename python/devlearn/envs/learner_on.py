@@ -218,10 +218,10 @@ class LearnerOn:
     ) -> Episodes:
         """Plays so many episodes by what was learned. Learner and run stay as they are.
 
-        A Learner plays its effective motion of highest orientation, an AdaptiveLearner the tried
-        one of least loss, a value learner that of the highest value, each of those allowed; where
-        nothing is known, any motion, drawn. An object of yours plays as a copy of it, which goes on
-        exploring and learning.
+        A Learner plays its effective motion of highest orientation, an AdaptiveLearner its habit
+        where it goes by one here, else the tried motion of least loss, a value learner that of the
+        highest value, each of those allowed; where nothing is known, any motion, drawn. An object
+        of yours plays as a copy of it, which goes on exploring and learning.
 
         The episodes of a seed are others than those that are run with it, and the same at each
         call. Parameters, result and errors as of ``run``.

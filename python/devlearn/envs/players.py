@@ -173,6 +173,29 @@ class OfAdaptive(Knowing):
         tried = [motion for motion in allowed if motion not in memory.unexplored]
         return [min(tried, key=memory.losses.__getitem__)] if tried else allowed
 
+    def frozen(self, random: Random) -> Player:
+        """By its habit, where a round that begins here goes by it; else greedy."""
+        return _ByHabit(self, self._learner.copy(), random)
+
+
+class _ByHabit(_Greedy):
+    def __init__(self, player: OfAdaptive, copied: AdaptiveLearner, random: Random) -> None:
+        super().__init__(player, random)
+        self._copied = copied
+        self._begins = True
+
+    def begin(self) -> None:
+        self._copied.begin_round()
+        self._begins = True
+
+    def choose(self, seen: Observation) -> int:
+        if self._begins:  # a round goes by habit, or not, from its first choice on
+            self._copied.choose(seen.situation, seen.estimate, seen.allowed)
+            self._copied.cancel()
+            self._begins = False
+        habit = self._copied.explain(seen.situation, seen.allowed).habit
+        return habit if habit in _allowed(seen) else super().choose(seen)
+
 
 class _OfAgent(Player):
     def __init__(self, agent: _Agent) -> None:

@@ -47,6 +47,13 @@ class Slippery(Corridor):
         return super().step(int(action) ^ int(self.np_random.random() < 0.2))
 
 
+def newest(name):
+    """The newest version of an environment of Gymnasium, made without its checks of every step."""
+    versions = [spec for spec in gymnasium.registry.values() if spec.name == name]
+    latest = max(versions, key=lambda spec: spec.version)
+    return gymnasium.make(latest, disable_env_checker=True)
+
+
 def paper(motions=2, seed=1):
     return Learner(LearnerConfig(motion_count=motions), seed=seed)
 
@@ -317,6 +324,15 @@ def test_best_is_the_learner_s_own_where_all_is_allowed():
             assert best == [learner.best(place)]
             one = player(learner).best(devlearn.Observation(place, 2, allowed=[True, False]))
             assert list(one) == [0]
+
+
+def test_the_adaptive_learner_is_evaluated_by_its_habit_as_it_would_go_on():
+    learner = adaptive(motions=4, hold_limit=1, seed=103)
+    on = LearnerOn(newest("CliffWalking"), learner)
+    on.run(300, seed=103)
+    assert learner.habit_cost == 13
+    # By the tried motions of least loss alone it goes round for ever, where others are untried.
+    assert on.evaluate(3, step_limit=100)["return"].tolist() == [-13.0] * 3
 
 
 # --- the same history, whatever the way ----------------------------------------------------------
@@ -650,13 +666,6 @@ def test_progress_is_told_at_the_end_and_may_end_the_run():
 
 
 # --- environments of Gymnasium --------------------------------------------------------------------
-
-
-def newest(name):
-    """The newest version of an environment of Gymnasium, made without its checks of every step."""
-    versions = [spec for spec in gymnasium.registry.values() if spec.name == name]
-    latest = max(versions, key=lambda spec: spec.version)
-    return gymnasium.make(latest, disable_env_checker=True)
 
 
 def test_the_adaptive_learner_walks_along_the_cliff():
