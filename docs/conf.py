@@ -39,7 +39,9 @@ suppress_warnings = ["duplicate_declaration.cpp"]  # the namespace, once a heade
 
 # --- Python: the package, its compiled module standing in as the stub that was written of it ----
 autodoc_member_order = "bysource"
-autodoc_mock_imports = ["gymnasium", "matplotlib", "scipy", "tqdm"]
+autodoc_mock_imports = [
+    "PIL", "gymnasium", "matplotlib", "scipy", "shapely", "skimage", "tqdm", "yaml",
+]  # fmt: skip
 autodoc_typehints_format = "short"
 python_use_unqualified_type_names = True
 add_module_names = False

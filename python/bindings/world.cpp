@@ -143,6 +143,26 @@ void bind_world(py::module_& m) {
           "'corridors', 'rooms' or 'traps'. difficulty in [0, 1]: what it means for each kind is\n"
           "in docs/worlds.md. Raises InvalidValue.")
       .def_static(
+          "from_ros_map",
+          [](const py::object& yaml, const std::optional<Pose>& start,
+             const std::optional<Point>& target, const std::string& unknown,
+             std::optional<double> tolerance, Whole<SeedTag> seed, double radius) {
+            const py::object imported = py::module_::import("devlearn.maps").attr("import_ros_map");
+            return imported(yaml, start, target, unknown, tolerance, seed.value, radius)
+                .attr("world")
+                .cast<World>();
+          },
+          py::arg("yaml"), py::arg("start") = py::none(), py::arg("target") = py::none(),
+          py::arg("unknown") = "occupied", py::arg("tolerance") = py::none(), py::arg("seed") = 0,
+          py::arg("radius") = 0.1,
+          "The world in a map of ROS's map_server: its YAML, with a PGM or PNG, in the map's own\n"
+          "frame. start (x, y, heading) and target (x, y), where None drawn by `seed`, with a way\n"
+          "between them for a robot of `radius` [m]. unknown: what cells are of which the map does\n"
+          "not know, 'occupied', 'free' or 'border' (occupied where they touch free ones). Outlines\n"
+          "lie within `tolerance` [m] of those traced; None: half a cell. Needs the extra `maps`;\n"
+          "docs/maps.md tells all, devlearn.maps.import_ros_map what was made of a map. Raises\n"
+          "FileError, InvalidValue.")
+      .def_static(
           "from_json",
           [](const std::string& text) {
             const NoGil no_gil;

@@ -1364,6 +1364,25 @@ class World:
         The world in JSON text. Raises FileError.
         """
     @staticmethod
+    def from_ros_map(
+        yaml: typing.Any,
+        start: collections.abc.Sequence[float] | None = None,
+        target: collections.abc.Sequence[float] | None = None,
+        unknown: str = "occupied",
+        tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        seed: typing.SupportsIndex = 0,
+        radius: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+    ) -> World:
+        """
+        The world in a map of ROS's map_server: its YAML, with a PGM or PNG, in the map's own
+        frame. start (x, y, heading) and target (x, y), where None drawn by `seed`, with a way
+        between them for a robot of `radius` [m]. unknown: what cells are of which the map does
+        not know, 'occupied', 'free' or 'border' (occupied where they touch free ones). Outlines
+        lie within `tolerance` [m] of those traced; None: half a cell. Needs the extra `maps`;
+        docs/maps.md tells all, devlearn.maps.import_ros_map what was made of a map. Raises
+        FileError, InvalidValue.
+        """
+    @staticmethod
     def load(path_or_name: typing.Any) -> World:
         """
         The world in a JSON file, or one that ships by its name (see devlearn.worlds()). Raises FileError, naming file and field.

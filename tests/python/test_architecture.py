@@ -58,6 +58,7 @@ def test_the_help_of_the_command_line_loads_nothing_that_it_does_not_need():
         "devlearn.cli.console",
         "devlearn.cli.run",
         "devlearn.cli.sweep",
+        "devlearn.cli.world",
         "devlearn.errors",
     }
 
@@ -149,7 +150,8 @@ ROOMS = {
     "experiments": set(),
     "paper": {"analysis", "plots", "experiments"},
     "comparison": {"analysis", "plots", "experiments"},
-    "cli": {"experiments", "paper", "comparison"},
+    "maps": set(),
+    "cli": {"analysis", "plots", "experiments", "paper", "comparison", "maps"},
     "envs": set(),
 }
 EXTRAS = {
@@ -159,6 +161,10 @@ EXTRAS = {
     "scipy": "experiments",
     "distributed": "experiments",
     "gymnasium": "envs",
+    "PIL": "maps",
+    "shapely": "maps",
+    "skimage": "maps",
+    "yaml": "maps",
 }
 
 

@@ -9,11 +9,14 @@ from .episodes import (
     find_window,
 )
 from .fields import PreferenceField, SefField, preference_field, sef_field
+from .rooms import Gap, Rooms
 from .ways import WayField
 
 __all__ = [
     "Episode",
+    "Gap",
     "PreferenceField",
+    "Rooms",
     "SefField",
     "WayField",
     "counts_before",
