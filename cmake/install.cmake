@@ -45,6 +45,6 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/devlearn COMP
 if(DEVLEARN_SIM)
   install(DIRECTORY python/devlearn/worlds
           DESTINATION ${CMAKE_INSTALL_DATADIR}/devlearn COMPONENT sim)
-  install(FILES python/devlearn/world.schema.json
+  install(FILES python/devlearn/world.schema.json python/devlearn/robot.schema.json
           DESTINATION ${CMAKE_INSTALL_DATADIR}/devlearn COMPONENT sim)
 endif()

@@ -59,6 +59,9 @@ void bind_random(py::module_& m) {
           py::is_operator())
       .def("next", &Random::next, "64 random bits as an int.")
       .def("uniform", &Random::uniform, "A float uniform on [0, 1).")
+      .def("normal", &Random::normal,
+           "Normal with mean 0 and standard deviation 1, as far as twelve uniform numbers less six "
+           "are (Irwin-Hall); never beyond 6.")
       .def(
           "index",
           [](Random& self, Whole<CountTag> count) {

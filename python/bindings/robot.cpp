@@ -20,6 +20,11 @@ std::optional<std::int64_t> count_or_none(std::int64_t steps) {
 void bind_robot(py::module_& m) {
   def_config<RobotDef>(
       m, "The robot of Fig. 1: a circle on two wheels that turns, then drives forward.")
+      .def_static(
+          "load", [](const py::object& path) { return RobotDef::load(file_path(path)); },
+          py::arg("path"),
+          "The robot in a JSON file, an object of these fields (robot.schema.json); those left out "
+          "keep their defaults. Raises FileError.")
       .def("sonar_angles", &RobotDef::sonar_angles,
            "Where each sonar looks, relative to the heading, from right to left [degrees].");
 
@@ -44,6 +49,18 @@ void bind_robot(py::module_& m) {
           py::arg("pose"), py::arg("motion"),
           "(next pose, collided): Eq. 1 exactly where the way is free, Box2D where there is "
           "something to touch. Raises InvalidValue.")
+      .def(
+          "drive",
+          [](const Robot& self, const Pose& pose, double turn, double speed) {
+            const Robot::Move move = [&] {
+              const NoGil no_gil;
+              return self.drive(pose, turn, speed);
+            }();
+            return std::make_pair(move.pose, move.collided);
+          },
+          py::arg("pose"), py::arg("turn"), py::arg("speed"),
+          "The same for any turn [degrees] and any speed of the drive from 0 m/s on, at most 1 m a "
+          "step: what becomes of a motion that is not made exactly. Raises InvalidValue.")
       .def(
           "allowed",
           [](const Robot& self, const Pose& pose) {

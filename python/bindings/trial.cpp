@@ -128,6 +128,11 @@ auto at_rest(Value (Trial::*read)() const noexcept) {
 }
 
 void bind_config(py::module_& m) {
+  def_config<NoiseDef>(
+      m,
+      "By how much chance spoils what a robot does and senses: standard deviations, and chances,\n"
+      "of each step, drawn from the stream \"noise\" of the trial's seed. By default there is "
+      "none.");
   def_config<TrialConfig>(
       m, "Everything a trial needs besides the world and the seed; the defaults are the paper's.")
       .def_static("paper", &TrialConfig::paper, "The default, with LearnerConfig.paper().")
@@ -241,6 +246,13 @@ void bind_trial(py::module_& m) {
           py::arg("x"), py::arg("y"), py::arg("heading"),
           "Puts the robot anywhere it fits [m, m, degrees] for a new round. Raises InvalidValue.")
       .def_property_readonly("pose", at_rest(&Trial::pose), "Where the robot is [m, m, degrees].")
+      .def_property_readonly(
+          "estimated_pose",
+          [](const Trial& self) {
+            require_free(&self, "Trial", InHand::For::kReading);
+            return self.environment().state().place.estimate;
+          },
+          "Where its odometry says the robot is; without noise, where it is.")
       .def_property_readonly("round", at_rest(&Trial::round),
                              "The present round, from 1; 0 before the first.")
       .def_property_readonly("round_open", at_rest(&Trial::round_open),

@@ -58,6 +58,7 @@ class Record:  # noqa: D101 - made of the columns
 
     round: npt.NDArray[np.int32]
     situation: npt.NDArray[np.int64]
+    true_situation: npt.NDArray[np.int64]
     motion: npt.NDArray[np.int32]
     kind: npt.NDArray[np.uint8]
     sef: npt.NDArray[np.float64]
@@ -338,7 +339,7 @@ class Record:  # noqa: D101 - made of the columns
         if len(rounds) > 0 and found.length("x") == 0:
             steps, poses = 0, 0
         columns = {
-            n: np.full(steps, np.nan)
+            n: np.full(steps, _core.later_columns[n], dtype)
             if n in _core.later_columns and n not in found
             else found.array(n, dtype, (steps,))
             for n, dtype in STEP_COLUMNS.items()

@@ -37,7 +37,8 @@ safetensors::Contents contents_of(const AdaptiveLearner& learner);
 ///@}
 
 /// A generator's state. Throws FileError.
-Random::State random_of(const safetensors::Contents& contents, const std::string& source);
+Random::State random_of(const safetensors::Contents& contents, const std::string& source,
+                        const char* name = "random");
 
 /// Writes values as metadata entries: numbers so that they read back to the bit, none as 0. Lists
 /// become arrays, which point into them.

@@ -139,13 +139,13 @@ void describe(const std::shared_ptr<const LearnerState>& shared, safetensors::Co
   add("random", state.random.data(), {state.random.size()});
 }
 
-Random::State random_of(const safetensors::Contents& contents, const std::string& source) {
+Random::State random_of(const safetensors::Contents& contents, const std::string& source,
+                        const char* name) {
   Random::State state{};
-  const auto random =
-      safetensors::values<std::uint64_t>(contents, "random", {state.size()}, source);
+  const auto random = safetensors::values<std::uint64_t>(contents, name, {state.size()}, source);
   std::copy(random.begin(), random.end(), state.begin());
   if (state == Random::State{}) {
-    throw FileError(source, "random", "all zeros", "a state of the generator");
+    throw FileError(source, name, "all zeros", "a state of the generator");
   }
   return state;
 }

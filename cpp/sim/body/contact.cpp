@@ -60,15 +60,16 @@ bool passes(b2Vec2 p, b2Vec2 q, const b2EdgeShape& edge) {
 
 }  // namespace
 
-Scene::Scene(const World& world, const RobotDef& robot, const Pose& pose, double heading) {
+Scene::Scene(const World& world, const RobotDef& robot, const Pose& pose, double heading,
+             double speed) {
   const Point from{pose.x, pose.y};
-  const double length = step_length(robot), reach = robot.radius + length + kReachMargin;
+  const double length = speed * robot.sample_time, reach = robot.radius + length + kReachMargin;
   for (const std::uint32_t surface : world.surfaces().around(from, reach)) {
     world.surfaces().apply(surface, [&](const auto& shape) { add(shape, from, reach); });
   }
   body.m_radius = static_cast<float>(robot.radius);
   const Direction ahead = direction(heading);
-  velocity = vector({robot.speed * ahead.x, robot.speed * ahead.y});
+  velocity = vector({speed * ahead.x, speed * ahead.y});
   substeps = std::max(kLeastSubsteps, static_cast<int>(std::ceil(length / kLongestSubstep)));
   substep = static_cast<float>(robot.sample_time / substeps);
 }

@@ -20,8 +20,8 @@ constexpr int kPositionIterations = 3;
 /// A drive in Box2D's terms, its origin where the body begins: the outcome depends on nothing that
 /// happened before.
 struct Scene {
-  /// Of all surfaces that a body at a pose can touch within a step along a heading.
-  Scene(const World& world, const RobotDef& robot, const Pose& pose, double heading);
+  /// Of all surfaces that a body at a pose can touch within a step along a heading [m/s].
+  Scene(const World& world, const RobotDef& robot, const Pose& pose, double heading, double speed);
 
   std::vector<b2EdgeShape> edges;
   std::vector<b2CircleShape> circles;

@@ -14,13 +14,13 @@ constexpr double kFreeMargin = 0.0105;
 
 constexpr double kPi = 3.14159265358979323846;
 
+}  // namespace
+
 double steering_angle(const RobotDef& robot, int motion) {
   const auto count = static_cast<long long>(robot.steering_angles.size());
   require_count("motion", motion, 0, count - 1);
   return robot.steering_angles[static_cast<std::size_t>(motion)];
 }
-
-}  // namespace
 
 double step_length(const RobotDef& robot) noexcept { return robot.speed * robot.sample_time; }
 
@@ -32,9 +32,8 @@ double heading_after(const RobotDef& robot, const Pose& pose, int motion) {
 }
 
 // Eq. 1: x' = x + v t_s cos theta', y' = y + v t_s sin theta'
-Pose driven(const RobotDef& robot, const Pose& pose, double heading) noexcept {
+Pose driven(const Pose& pose, double heading, double length) noexcept {
   const Direction ahead = direction(heading);
-  const double length = step_length(robot);
   return {pose.x + length * ahead.x, pose.y + length * ahead.y, heading};
 }
 
@@ -51,11 +50,11 @@ WheelSpeeds Robot::drive_speeds() const noexcept { return {def_.speed, def_.spee
 
 // Decided where it can be by what is known of the ends: no point on the way is nearer to anything
 // than an end less its way there.
-bool way_is_free(const World& world, const RobotDef& robot, const Pose& from,
-                 const Pose& to) noexcept {
+bool way_is_free(const World& world, const RobotDef& robot, const Pose& from, const Pose& to,
+                 double length) noexcept {
   constexpr double kRounding = 1e-9;  // [m], more than all of it
   const Point start{from.x, from.y}, end{to.x, to.y};
-  const double room = free_room(robot), length = step_length(robot);
+  const double room = free_room(robot);
   const double in_sight = world.surfaces().distance_at_least(end);
   if (std::min(in_sight, world.wall_distance(end)) > room + length + kRounding) return true;
   const double at_end = world.clearance(end, true);
@@ -69,8 +68,9 @@ bool way_is_free(const World& world, const RobotDef& robot, const Pose& from,
 
 std::optional<Pose> free_step(const World& world, const RobotDef& robot, const Pose& pose,
                               int motion) {
-  const Pose next = driven(robot, pose, heading_after(robot, pose, motion));
-  if (way_is_free(world, robot, pose, next)) return next;
+  const double length = step_length(robot);
+  const Pose next = driven(pose, heading_after(robot, pose, motion), length);
+  if (way_is_free(world, robot, pose, next, length)) return next;
   return std::nullopt;
 }
 

@@ -19,6 +19,8 @@ namespace {
 // Box2D's slop: a body may rest this deep in what it touches [m]. Both what a step may return and
 // what counts as a place to stand follow it, so that every pose a step returns is accepted again.
 constexpr double kSlop = 0.005;
+constexpr double kLongestStep = 1.0;  // [m]
+
 // Where surfaces wedge the body deeper than one substep leads [m], the drive is done again with
 // more iterations of Box2D's solver.
 constexpr double kShallow = 0.0035;
@@ -33,7 +35,8 @@ bool is_finite(const Pose& pose) {
 
 void RobotDef::validate() const {
   detail::require_fields(*this);
-  require_above("RobotDef.speed * sample_time", speed * sample_time, 0.0, 1.0, "m");
+  require_above("RobotDef.speed * sample_time", speed * sample_time, 0.0, kLongestStep, "m");
+  require_in("RobotDef.sonar_least_range", sonar_least_range, 0.0, sonar_range, "m");
 }
 
 std::vector<double> RobotDef::sonar_angles() const {
@@ -61,13 +64,23 @@ Robot::Robot(Robot&&) noexcept = default;
 Robot& Robot::operator=(Robot&&) noexcept = default;
 
 Robot::Move Robot::step(const Pose& pose, int motion) const {
-  const double heading = heading_after(def_, pose, motion);
+  return move(pose, steering_angle(def_, motion), def_.speed);
+}
+
+Robot::Move Robot::drive(const Pose& pose, double turn, double speed) const {
+  require_finite("turn", turn);
+  require_in("speed", speed, 0.0, kLongestStep / def_.sample_time, "m/s");
+  return move(pose, turn, speed);
+}
+
+Robot::Move Robot::move(const Pose& pose, double turn, double speed) const {
   if (!is_finite(pose)) require_place(pose);
-  const Pose straight = driven(def_, pose, heading);
-  if (way_is_free(*world_, def_, pose, straight)) return {straight, false};
+  const double heading = wrapped_heading(pose.heading + turn), length = speed * def_.sample_time;
+  const Pose straight = driven(pose, heading, length);
+  if (way_is_free(*world_, def_, pose, straight, length)) return {straight, false};
 
   require_place(pose);
-  const Scene scene(*world_, def_, pose, heading);
+  const Scene scene(*world_, def_, pose, heading, speed);
   for (const int iterations : {kFewIterations, kManyIterations}) {
     auto drive = drive_directly(scene, iterations);
     if (!drive) drive = drive_in_box2d(scene, iterations);
@@ -88,7 +101,8 @@ bool Robot::allowed(const Pose& pose, bool* allowed) const {
   if (!def_.safety_margin) return false;
   const double room = def_.radius + *def_.safety_margin;
   for (std::size_t motion = 0; motion < motions; ++motion) {
-    const Pose end = driven(def_, pose, heading_after(def_, pose, static_cast<int>(motion)));
+    const double heading = heading_after(def_, pose, static_cast<int>(motion));
+    const Pose end = driven(pose, heading, step_length(def_));
     allowed[motion] = world_->surfaces().keep_clear_of({pose.x, pose.y}, {end.x, end.y}, room);
   }
   bool* const last = allowed + motions;
@@ -96,9 +110,11 @@ bool Robot::allowed(const Pose& pose, bool* allowed) const {
   return std::find(allowed, last, false) != last;
 }
 
-void Robot::sonar(const Pose& pose, double* echoes) const {
+void Robot::sonar(const Pose& pose, double* echoes) const { sonar(pose, nullptr, echoes); }
+
+void Robot::sonar(const Pose& pose, const double* aside, double* echoes) const {
   require_place(pose);
-  sonars_->listen(pose, echoes);
+  sonars_->listen(pose, aside, echoes);
 }
 
 std::vector<double> Robot::sonar(const Pose& pose) const {

@@ -13,12 +13,14 @@ namespace {
 
 class NearestHit : public b2RayCastCallback {
  public:
-  float ReportFixture(b2Fixture*, const b2Vec2&, const b2Vec2&, float at) override {
+  float ReportFixture(b2Fixture*, const b2Vec2&, const b2Vec2& outwards, float at) override {
     hit = true;
+    normal = outwards;
     return fraction = at;
   }
   bool hit = false;
   float fraction = 1.0f;
+  b2Vec2 normal{0.0f, 0.0f};
 };
 
 // Both ends overlap the next edge by some units in the last place of a float, so that no ray slips
@@ -33,13 +35,29 @@ b2EdgeShape overlapping(Point a, Point b) {
   return shape;
 }
 
+// Sound goes there and back [m/s].
+constexpr double kSpeedOfSound = 343.0;
+
+std::vector<double> rays_of(const RobotDef& robot) {
+  if (robot.sonar_beam == 0.0) return {0.0};
+  std::vector<double> rays;
+  for (int i = 0; i < robot.sonar_rays; ++i) {
+    rays.push_back(robot.sonar_beam * (static_cast<double>(i) / (robot.sonar_rays - 1) - 0.5));
+  }
+  return rays;
+}
+
 }  // namespace
 
 Sonars::Sonars(std::shared_ptr<const World> world, const RobotDef& robot)
     : world_(std::move(world)),
       angles_(robot.sonar_angles()),
+      cone_(rays_of(robot)),
       radius_(robot.radius),
-      range_(robot.sonar_range) {}
+      range_(robot.sonar_range),
+      least_range_(robot.sonar_least_range),
+      blind_range_(0.5 * kSpeedOfSound * robot.sonar_blind_time),
+      least_cosine_(robot.sonar_specular < 90.0 ? direction(robot.sonar_specular).x : -1.0) {}
 
 void Sonars::build() const {
   auto standing = std::make_unique<b2World>(b2Vec2(0.0f, 0.0f));
@@ -59,18 +77,34 @@ void Sonars::build() const {
   standing_ = std::move(standing);
 }
 
-void Sonars::listen(const Pose& pose, double* echoes) const {
+void Sonars::listen(const Pose& pose, const double* aside, double* echoes) const {
   std::call_once(built_, [this] { build(); });
+  const Point at = Point{pose.x, pose.y} - world_->def().origin;
+  for (std::size_t i = 0; i < angles_.size(); ++i) {
+    const double error = aside == nullptr ? 0.0 : aside[i];
+    echoes[i] = nearest_echo(at, pose.heading + angles_[i] + error);
+  }
+}
+
+double Sonars::nearest_echo(Point at, double heading) const {
+  double nearest = range_;
+  for (const double ray : cone_) nearest = std::min(nearest, echo(at, heading + ray));
+  return nearest;
+}
+
+// Of one ray; the range where none is heard.
+double Sonars::echo(Point at, double heading) const {
   // From the centre: the body holds nothing but slop, and no ray begins inside a shape.
   const double reach = radius_ + range_;
-  const Point at = Point{pose.x, pose.y} - world_->def().origin;
-  for (const double angle : angles_) {
-    const Direction ray = direction(pose.heading + angle);
-    NearestHit nearest;
-    standing_->RayCast(&nearest, vector(at), vector(along(at, {ray.x, ray.y}, reach)));
-    const double echo = static_cast<double>(nearest.fraction) * reach - radius_;
-    *echoes++ = nearest.hit ? std::clamp(echo, 0.0, range_) : range_;
-  }
+  const Direction ray = direction(heading);
+  NearestHit hit;
+  standing_->RayCast(&hit, vector(at), vector(along(at, {ray.x, ray.y}, reach)));
+  if (!hit.hit) return range_;
+  const double echo = std::clamp(static_cast<double>(hit.fraction) * reach - radius_, 0.0, range_);
+  const double cosine =
+      -(ray.x * static_cast<double>(hit.normal.x) + ray.y * static_cast<double>(hit.normal.y));
+  if (echo < blind_range_ || cosine < least_cosine_) return range_;
+  return std::max(echo, least_range_);
 }
 
 }  // namespace devlearn

@@ -18,17 +18,22 @@ class Sonars {
  public:
   Sonars(std::shared_ptr<const World> world, const RobotDef& robot);
 
-  /// Echo distances from the rim of a body at a pose, as Robot::sonar has them.
-  void listen(const Pose& pose, double* echoes) const;
+  /// Echo distances from the rim of a body at a pose, as Robot::sonar has them; each looks `aside`
+  /// by some degrees, or null.
+  void listen(const Pose& pose, const double* aside, double* echoes) const;
 
  private:
   void build() const;
+  double nearest_echo(Point at, double heading) const;
+  double echo(Point at, double heading) const;
 
   std::shared_ptr<const World> world_;
   mutable std::once_flag built_;
   mutable std::unique_ptr<b2World> standing_;
   std::vector<double> angles_;
-  double radius_, range_;
+  std::vector<double> cone_;  // its rays, relative to where a sonar looks [degrees]
+  double radius_, range_, least_range_, blind_range_;
+  double least_cosine_;  // of the angle at which sound comes back
 };
 
 }  // namespace devlearn

@@ -6,12 +6,20 @@
 
 namespace devlearn {
 
-TrialConfig load_config(const std::string& path) {
+namespace {
+
+template <typename Def>
+Def load(const std::string& path) {
   constexpr json::Limits kLimits{std::size_t{4} << 20, 4, 100'000};
   const json::Document document(text_of_file(path, kLimits.bytes), path, kLimits);
-  auto config = json::def_at<TrialConfig>(document.root());
-  made_of(path, [&] { config.validate(); });
-  return config;
+  auto def = json::def_at<Def>(document.root());
+  made_of(path, [&] { def.validate(); });
+  return def;
 }
+
+}  // namespace
+
+TrialConfig load_config(const std::string& path) { return load<TrialConfig>(path); }
+RobotDef RobotDef::load(const std::string& path) { return devlearn::load<RobotDef>(path); }
 
 }  // namespace devlearn

@@ -1,7 +1,6 @@
 #include "devlearn/trial.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -12,9 +11,6 @@
 
 namespace devlearn {
 namespace {
-
-// A collision is never effective, whatever it gained.
-constexpr double kCollisionSmf = -1.0;
 
 constexpr std::int64_t kStepsBetweenInterrupts = 8;
 
@@ -41,50 +37,20 @@ class OneCall {
   bool& under_way_;
 };
 
-// Cells of cell_size over the arena, from its origin; the last ones may reach beyond it.
-SituationGrid grid_over(const World& world, const TrialConfig& config) {
-  const auto cells = [&](double side) {
-    return static_cast<int>(std::max(1.0, std::ceil(side / config.cell_size - 1e-9)));
-  };
-  const auto covered = [&](double side) { return std::max(side, cells(side) * config.cell_size); };
-  const double width = world.def().width, height = world.def().height;
-  return SituationGrid(covered(width), covered(height), cells(width), cells(height),
-                       config.heading_bins, world.def().origin);
-}
-
-Senses senses_of(const Observation& there) {
-  return {there.pose, there.goal_distance, there.clearance};
-}
-
-// SEFs differ by what a double can hold.
-constexpr double kMostSef = 1e300;
-
-double require_sef(const std::string& quantity, double sef) {
-  require_in(quantity, sef, -kMostSef, kMostSef);
-  return sef;
-}
-
-template <typename Value>
-void require_named(const char* quantity, const NamedFunction<Value>& part) {
-  if (part.function && part.name.empty()) {
-    throw InvalidValue(std::string(quantity) + ".name", "''", "a name, by which snapshots know it");
-  }
-  if (!part.function && !part.name.empty()) {
-    throw InvalidValue(std::string(quantity) + ".function", "null", "a function of that name");
-  }
-}
-
 // What the record is told.
-Step row(std::int32_t round, const Observation& before, const Choice& choice,
-         const Observation& after, double smf, const Outcome& outcome,
+Step row(std::int32_t round, SituationId situation, SituationId true_situation,
+         const Choice& choice, const Environment::Transition& made,
          const Development& development) {
+  const Observation& after = made.next.here;
+  const Outcome& outcome = made.outcome;
   Step step;
   step.round = round;
-  step.situation = before.situation;
+  step.situation = situation;
+  step.true_situation = true_situation;
   step.motion = choice.motion;
   step.kind = choice.kind;
   step.sef = after.sef;
-  step.smf = smf;
+  step.smf = made.smf;
   step.smf_used = outcome.smf;
   step.collided = outcome.collided;
   step.arrived = outcome.arrived;
@@ -96,7 +62,7 @@ Step row(std::int32_t round, const Observation& before, const Choice& choice,
   step.reduced = development.reduced;
   step.explored_count = development.explored_count;
   step.effective_count = development.effective_count;
-  step.pose = after.pose;
+  step.pose = made.next.place.pose;
   return step;
 }
 
@@ -112,41 +78,6 @@ std::shared_ptr<Agent> own_agent(const TrialConfig& config, std::uint64_t seed) 
 
 }  // namespace
 
-TrialConfig TrialConfig::step5() {
-  TrialConfig config;
-  config.learner = LearnerConfig::step5();
-  return config;
-}
-
-TrialConfig TrialConfig::adaptive() {
-  TrialConfig config;
-  config.learner = AdaptiveConfig{};
-  return config;
-}
-
-int TrialConfig::motion_count() const {
-  return std::visit([](const auto& def) { return def.motion_count; }, learner);
-}
-
-void TrialConfig::validate() const {
-  detail::require_fields(*this);
-  if (clearance_source == ClearanceSource::kSonar) {
-    if (!walls_count) {
-      throw InvalidValue("TrialConfig.walls_count", "false with clearance_source sonar",
-                         "true: an echo does not say whether it came from a wall");
-    }
-    require_count("TrialConfig.robot.sonar_count with clearance_source sonar", robot.sonar_count, 1,
-                  720);
-  }
-  const auto motions = static_cast<long long>(robot.steering_angles.size());
-  if (motion_count() != motions) {
-    throw InvalidValue("TrialConfig.learner.motion_count", std::to_string(motion_count()),
-                       std::to_string(motions) + ", the number of robot.steering_angles");
-  }
-}
-
-bool operator==(const TrialConfig& a, const TrialConfig& b) { return detail::same_fields(a, b); }
-
 // --- the trial ---------------------------------------------------------------------------------
 
 Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed)
@@ -157,44 +88,18 @@ Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed, 
 
 Trial::Trial(const World& world, const TrialConfig& config, std::uint64_t seed,
              std::shared_ptr<Agent> agent, TrialParts parts)
-    : config_((config.validate(), config)),
-      seed_(seed),
-      robot_(world, config.robot),
-      grid_(grid_over(world, config)),
-      agent_(std::move(agent)),
-      parts_(std::move(parts)),
-      allowed_(std::make_unique<bool[]>(config.robot.steering_angles.size())) {
+    : environment_(world, config, seed, std::move(parts)), seed_(seed), agent_(std::move(agent)) {
   if (!agent_) throw InvalidValue("Trial.agent", "null", "an agent");
   if (const auto paper = learner()) require_motions(paper->config().motion_count);
   if (const auto adaptive = adaptive_learner()) require_motions(adaptive->config().motion_count);
-  require_parts();
-  robot_.require_place(world.def().start, "start");
-  here_ = sense(world.def().start);
 }
 
 // An agent of devlearn's own says how many motions it has.
 void Trial::require_motions(int motions) const {
-  if (motions == config_.motion_count()) return;
+  if (motions == config().motion_count()) return;
   throw InvalidValue(
       "Trial.agent.config.motion_count", std::to_string(motions),
-      std::to_string(config_.motion_count()) + ", the number of robot.steering_angles");
-}
-
-void Trial::require_parts() const {
-  require_named("TrialParts.evaluation", parts_.evaluation);
-  require_named("TrialParts.situations", parts_.situations);
-  const std::vector<double>& table = parts_.sef_table;
-  if (table.empty()) return;
-  const char* const quantity = "TrialParts.sef_table";
-  if (parts_.evaluation.function) {
-    throw InvalidValue(quantity, "given, and an evaluation too", "only one of them");
-  }
-  if (parts_.situations.function) {
-    throw InvalidValue(quantity, "given, and situations of one's own too",
-                       "an evaluation: a table is of the grid's situations");
-  }
-  require_size(quantity, table.size(), static_cast<std::uint64_t>(grid_.count()));
-  require_each(table.size(), [&](std::size_t i) { require_sef(quantity, table[i]); });
+      std::to_string(config().motion_count()) + ", the number of robot.steering_angles");
 }
 
 Step Trial::step() {
@@ -206,112 +111,45 @@ Step Trial::step() {
 Step Trial::tick() {
   open_round();
   // world -> sense -> situation: as it was when the robot came here
-  const Observation before = here_;
+  const SituationId situation = environment_.state().here.situation;
+  const SituationId true_situation = environment_.state().true_situation;
   // -> choice (Eq. 5 and 7), of what the robot can make
   const Choice choice = chosen();
-  // -> motion (Eq. 1)
-  const Robot::Move moved = robot_.step(before.pose, choice.motion);
-  // world -> sense -> situation, and its SEF (Eq. 6)
-  const Observation after = sense_after(moved.pose);
-  // -> evaluation (Eq. 8)
-  const double smf = after.sef - before.sef;
-  const Outcome outcome = outcome_of(after, smf, moved.collided);
+  // -> motion (Eq. 1) -> sense -> situation -> evaluation (Eq. 6 and 8)
+  Environment::Transition made = after(choice.motion);
   // -> development (Eq. 9-17)
-  const Development development = agent_->observe(outcome);
+  const Development development = agent_->observe(made.outcome);
   // -> record
-  here_ = after;
   round_ = std::max(round_, 1);
-  return row(round_, before, choice, after, smf, outcome, development);
+  const Step step = row(round_, situation, true_situation, choice, made, development);
+  environment_.enter(std::move(made.next));
+  return step;
 }
 
-// What is sensed at a pose, and its situation and SEF.
-Observation Trial::sense(const Pose& pose) const {
-  Observation there;
-  there.pose = pose;
-  const double dx = pose.x - world().def().target.x;
-  const double dy = pose.y - world().def().target.y;
-  there.goal_distance = std::sqrt(dx * dx + dy * dy);
-  there.clearance = clearance(pose);
-  there.situation = parts_.situations.function ? own_situation(there)
-                                               : grid_.situation(pose.x, pose.y, pose.heading);
-  // Eq. 6, or what stands in its place
-  there.sef = parts_.evaluation.function || !parts_.sef_table.empty()
-                  ? own_sef(there)
-                  : config_.evaluation(there.goal_distance, there.clearance);
-  if (!arrived_at(there)) {
-    there.estimate = there.goal_distance / (config_.robot.speed * config_.robot.sample_time);
-  }
-  there.motion_count = config_.motion_count();
-  return there;
-}
-
-// The same after a motion: where it cannot be told, the motion was not made.
-Observation Trial::sense_after(const Pose& pose) const {
+// Where it cannot be told what came of a motion, it was not made.
+Environment::Transition Trial::after(int motion) {
   try {
-    return sense(pose);
+    return environment_.after(motion);
   } catch (...) {
     agent_->cancel();
     throw;
   }
 }
 
-SituationId Trial::own_situation(const Observation& there) const {
-  const NamedFunction<SituationId>& own = parts_.situations;
-  const SituationId id = own.function(senses_of(there));
-  if (id < 0) {
-    throw InvalidValue("situation by " + own.name, std::to_string(id), "in [0, 2^63 - 1]");
-  }
-  return id;
-}
-
-double Trial::own_sef(const Observation& there) const {
-  const NamedFunction<double>& own = parts_.evaluation;
-  if (own.function) return require_sef("SEF by " + own.name, own.function(senses_of(there)));
-  return parts_.sef_table[static_cast<std::size_t>(there.situation)];
-}
-
-// d_o of Eq. 6.
-double Trial::clearance(const Pose& pose) const {
-  if (config_.clearance_source == ClearanceSource::kSonar) {
-    const std::vector<double> echoes = robot_.sonar(pose);
-    return *std::min_element(echoes.begin(), echoes.end()) + config_.robot.radius;
-  }
-  return world().clearance({pose.x, pose.y}, config_.walls_count);
-}
-
-// What the robot can make of its motions here.
-AllowedMotions Trial::allowed() const {
-  if (!robot_.allowed(here_.pose, allowed_.get())) return {};
-  return {allowed_.get(), static_cast<std::size_t>(here_.motion_count)};
-}
-
 // The agent's choice; one outside M, or that is not allowed, is refused.
 Choice Trial::chosen() {
-  here_.allowed = allowed();
-  const Choice choice = agent_->choose(here_);
-  if (choice.motion < 0 || choice.motion >= here_.motion_count) {
+  const Observation& here = environment_.look();
+  const Choice choice = agent_->choose(here);
+  if (choice.motion < 0 || choice.motion >= here.motion_count) {
     agent_->cancel();
-    require_count("agent's motion", choice.motion, 0, here_.motion_count - 1);
+    require_count("agent's motion", choice.motion, 0, here.motion_count - 1);
   }
-  if (!here_.allowed(choice.motion)) {
+  if (!here.allowed(choice.motion)) {
     agent_->cancel();
     throw InvalidValue("agent's motion", std::to_string(choice.motion),
                        "one that the robot's safety layer allows, see Observation.allowed");
   }
   return choice;
-}
-
-// What the agent is told of a motion.
-Outcome Trial::outcome_of(const Observation& after, double smf, bool collided) const {
-  Outcome outcome;
-  outcome.situation = after.situation;
-  outcome.sef = after.sef;
-  outcome.smf = collided ? std::min(smf, kCollisionSmf) : smf;
-  outcome.collided = collided;
-  outcome.arrived = arrived_at(after);
-  outcome.estimate = after.estimate;
-  if (collided) outcome.cost += config_.touch_cost;
-  return outcome;
 }
 
 void Trial::begin_round() { place(world().def().start); }
@@ -321,11 +159,10 @@ void Trial::place(const Pose& pose) {
   put(pose);
 }
 
-void Trial::resume(const Pose& pose, std::int32_t round, bool round_open) {
+void Trial::resume(const Environment::Place& place, std::int32_t round, bool round_open) {
   const OneCall call(under_way_);
   require_count("round", round, 0, kLastRound);
-  robot_.require_place(pose);
-  here_ = sense(pose);
+  environment_.enter(environment_.standing(place));
   round_ = round;
   round_open_ = round_open;
 }
@@ -333,11 +170,10 @@ void Trial::resume(const Pose& pose, std::int32_t round, bool round_open) {
 // A new round, from a pose.
 void Trial::put(const Pose& pose) {
   require_count("round", std::int64_t{round_} + 1, 1, kLastRound);
-  robot_.require_place(pose);
-  const Observation there = sense(pose);
+  Environment::State there = environment_.standing(pose);
   close_round(false);
   open_round();
-  here_ = there;
+  environment_.enter(std::move(there));
   ++round_;
 }
 
@@ -400,7 +236,7 @@ void Trial::open(Record& record, const RunOptions& options) const {
     throw InvalidValue("rounds_only", options.rounds_only ? "true" : "false",
                        "as in the rounds that the record already has");
   }
-  const int sonars = options.echoes ? config_.robot.sonar_count : 0;
+  const int sonars = options.echoes ? config().robot.sonar_count : 0;
   if (record.steps() > 0 && record.sonar_count != sonars) {
     throw InvalidValue("record.sonar_count", std::to_string(record.sonar_count),
                        std::to_string(sonars) + ", as many echoes a step as now are recorded");
@@ -435,7 +271,7 @@ bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
     }
     record.append(step);
     if (options.echoes) {
-      const std::vector<double> echoes = robot_.sonar(pose());
+      const std::vector<double> echoes = environment_.echoes();
       record.echoes.insert(record.echoes.end(), echoes.begin(), echoes.end());
     }
   }

@@ -20,8 +20,10 @@ namespace {
 using safetensors::Contents;
 
 constexpr const char* kFormat = "devlearn-trial";
-// Of trials with parts of one's own, which an older reader must not take for Eq. 6 and the grid's.
-constexpr std::uint64_t kFormatVersion = 2;
+// Of trials with noise, or with parts of one's own, which an older reader must not take for exact
+// ones, or for Eq. 6 and the grid's.
+constexpr std::uint64_t kFormatVersion = 3;
+constexpr std::uint64_t kFormatVersionWithoutNoise = 2;
 constexpr std::uint64_t kFormatVersionOfPlain = 1;
 
 // Stands for an agent where there is none.
@@ -29,14 +31,20 @@ constexpr const char* kNone = "none";
 
 constexpr const char* kConfig = "config.";
 
+// Where there is noise: the estimated pose, and the state of its stream.
+constexpr const char* kEstimate = "estimate";
+constexpr const char* kNoise = "noise";
+
 // Parts of one's own: names of functions, and the table.
 constexpr const char* kEvaluation = "own.evaluation";
 constexpr const char* kSituations = "own.situations";
 constexpr const char* kSefTable = "own.sef_table";
 
-std::uint64_t version_for(const TrialParts& parts) {
+std::uint64_t version_for(const Trial& trial) {
+  if (trial.config().noise != NoiseDef{}) return kFormatVersion;
+  const TrialParts& parts = trial.parts();
   const bool own = parts.evaluation.function || parts.situations.function;
-  return own || !parts.sef_table.empty() ? kFormatVersion : kFormatVersionOfPlain;
+  return own || !parts.sef_table.empty() ? kFormatVersionWithoutNoise : kFormatVersionOfPlain;
 }
 
 // What stands before the names of an agent's texts and arrays. devlearn's first two agents stand as
@@ -56,7 +64,7 @@ std::string box2d_version() {
 class Description {
  public:
   Description(const Trial& trial, const SaveOptions& options)
-      : contents_{preamble(kFormat, version_for(trial.parts())), {}} {
+      : contents_{preamble(kFormat, version_for(trial)), {}} {
     if (trial.under_way()) {
       throw InvalidValue("Trial", "a snapshot while a call is under way", "one call at a time");
     }
@@ -85,8 +93,14 @@ class Description {
     entries("round", trial.round());
     entries("round_open", trial.round_open());
     each_entry(trial.config(), kConfig, entries);
-    pose_ = {trial.pose().x, trial.pose().y, trial.pose().heading};
+    const auto& [pose, estimate, noise] = trial.environment().state().place;
+    pose_ = {pose.x, pose.y, pose.heading};
     add("pose", pose_, "F64");
+    if (trial.config().noise == NoiseDef{}) return;
+    estimate_ = {estimate.x, estimate.y, estimate.heading};
+    add(kEstimate, estimate_, "F64");
+    noise_.assign(noise.state().begin(), noise.state().end());
+    add(kNoise, noise_, "U64");
   }
 
   void describe_parts(const TrialParts& parts) {
@@ -158,7 +172,8 @@ class Description {
   }
 
   Contents contents_;
-  std::vector<double> pose_;
+  std::vector<double> pose_, estimate_;
+  std::vector<std::uint64_t> noise_;
   std::vector<std::int32_t> numbers_;
   std::vector<std::int64_t> steps_;
   std::vector<std::uint8_t> arrived_;
@@ -247,6 +262,19 @@ std::uint64_t seed_of(const Contents& contents, const std::string& source) {
   return seed;
 }
 
+Pose pose_of(const Contents& contents, const char* name, const std::string& source) {
+  const std::vector<double> pose = safetensors::values<double>(contents, name, {3}, source);
+  return {pose[0], pose[1], pose[2]};
+}
+
+Environment::Place place_of(const Contents& contents, const TrialConfig& config, std::uint64_t seed,
+                            const std::string& source) {
+  const Pose pose = pose_of(contents, "pose", source);
+  if (config.noise == NoiseDef{}) return {pose, pose, Random(seed, "noise")};
+  const Random::State noise = random_of(contents, source, kNoise);
+  return {pose, pose_of(contents, kEstimate, source), Random(noise)};
+}
+
 std::string note_of(const Contents& contents) {
   const auto entry = contents.metadata.find("note");
   return entry == contents.metadata.end() ? "" : entry->second;
@@ -261,13 +289,13 @@ Trial trial_of(const Contents& contents, const LoadOptions& options, const std::
   bool round_open = round > 0;
   if (entries.has("round_open")) entries("round_open", round_open);
   const TrialConfig config = config_of(contents, source);
-  const std::vector<double> pose = safetensors::values<double>(contents, "pose", {3}, source);
+  const Environment::Place place = place_of(contents, config, seed, source);
   const World world = world_of(contents, source);
   TrialParts parts = parts_of(contents, options.parts, source);
   const std::shared_ptr<Agent> agent = agent_of(contents, options, source);
   return made_of(source, [&] {
     Trial trial(world, config, seed, agent, std::move(parts));
-    trial.resume({pose[0], pose[1], pose[2]}, round, round_open);
+    trial.resume(place, round, round_open);
     return trial;
   });
 }
@@ -289,7 +317,7 @@ std::optional<Record> record_of(const Contents& contents, const std::string& sou
   detail::each_column(Record::step_columns(), [&](auto& column) {
     if constexpr (std::decay_t<decltype(column)>::may_lack()) {
       if (contents.arrays.count(std::string("record.") + column.name) == 0) {
-        (record.*column.values).assign(steps, std::numeric_limits<double>::quiet_NaN());
+        (record.*column.values).assign(steps, column.missing());
         return;
       }
     }

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from .console import say, warn
 
 if TYPE_CHECKING:
-    from .._core import TrialConfig, World
+    from .._core import RobotDef, TrialConfig, World
     from ..experiments.schedule import Schedule
     from ..paper.schedule import Run
 
@@ -45,6 +45,7 @@ def add_to(verbs: Any) -> None:
     parser.add_argument(
         "--config", metavar="FILE", help="a TrialConfig as JSON, instead of a preset"
     )
+    parser.add_argument("--robot", metavar="FILE", help="a robot as JSON, instead of the paper's")
     parser.add_argument(
         "--set", action="append", default=[], metavar="FIELD=VALUE",
         help="change one field of it, such as learner.sigma=0.5; as often as you like",
@@ -103,6 +104,8 @@ def _main(options: argparse.Namespace) -> int:
     config = preset(options.preset)
     if options.config is not None:
         config = _core.load_config(options.config)
+    if options.robot is not None:
+        config = _with_robot(config, _core.RobotDef.load(options.robot))
     config = _changed(config, options.set)
     _core.Trial(world, config, options.seed)  # refuses what cannot run
     if not _core.may_reach_target(_core.Robot(world, config.robot), goal_radius=config.goal_radius):
@@ -189,6 +192,12 @@ def _draw(folder: Path, made: Run) -> None:
         warn(f"no figures: {error}")
         return
     save_figure(folder, draw_run(made.trial, made.paths))
+
+
+def _with_robot(config: TrialConfig, robot: RobotDef) -> TrialConfig:
+    """Its learner has as many motions as the robot."""
+    motions = len(robot.steering_angles)
+    return config.replace(robot=robot, learner=config.learner.replace(motion_count=motions))
 
 
 def _changed(config: TrialConfig, changes: Sequence[str]) -> TrialConfig:

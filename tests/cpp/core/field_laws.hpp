@@ -45,10 +45,13 @@ auto members_of(const Def& def) {
   } else if constexpr (n == 10) {
     const auto& [a, b, c, d, e, f, g, h, i, j] = def;
     return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j);
-  } else {
-    static_assert(n == 13, "a line more, please");
+  } else if constexpr (n == 13) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = def;
     return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l, &m);
+  } else {
+    static_assert(n == 14, "a line more, please");
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, o] = def;
+    return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l, &m, &o);
   }
 }
 

@@ -49,6 +49,14 @@ class Random {
     return static_cast<std::uint32_t>(product >> 32);
   }
 
+  /// Normal with mean 0 and standard deviation 1, as far as twelve uniform numbers less six are
+  /// (Irwin-Hall): never beyond 6, and by additions only, so the same on every machine.
+  double normal() noexcept {
+    double sum = -6.0;
+    for (int i = 0; i < 12; ++i) sum += uniform();
+    return sum;
+  }
+
   /// Where the stream is.
   const State& state() const noexcept { return state_; }
 

@@ -14,6 +14,7 @@ namespace devlearn {
 struct Step {
   std::int32_t round = 0;
   SituationId situation = -1;
+  SituationId true_situation = -1;
   std::int32_t motion = -1;
   Kind kind = Kind::kUnstated;
   double sef = 0.0;
@@ -46,7 +47,7 @@ struct Record {
   ///@{
   /// Of each step, as Step says.
   std::vector<std::int32_t> round;
-  std::vector<SituationId> situation;
+  std::vector<SituationId> situation, true_situation;
   std::vector<std::int32_t> motion;
   std::vector<std::uint8_t> kind;
   std::vector<double> sef, smf, smf_used;
@@ -70,6 +71,8 @@ struct Record {
         column("round", &R::round, &Step::round, from(1), "the round the step belongs to, from 1"),
         column("situation", &R::situation, &Step::situation, from(0),
                "before the step: S_i, in which the motion was chosen"),
+        column("true_situation", &R::true_situation, &Step::true_situation, or_untold(),
+               "the situation that the robot was in; another one where its odometry errs"),
         column("motion", &R::motion, &Step::motion, from(0), "index in M"),
         column("kind", &R::kind, &Step::kind, whole(0, 6), "why it was chosen, a Kind"),
         column("sef", &R::sef, &Step::sef, finite(), "after the step: SEF(t+1)"),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "devlearn/detail/fields.hpp"
@@ -21,6 +22,11 @@ struct RobotDef {
   int sonar_count = 5;
   double sonar_fov = 180.0;
   double sonar_range = 2.0;
+  double sonar_beam = 0.0;
+  int sonar_rays = 5;
+  double sonar_specular = 90.0;
+  double sonar_least_range = 0.0;
+  double sonar_blind_time = 0.0;
   std::optional<double> safety_margin;
 
   /// What each of them is, by name: symbol, range, meaning.
@@ -42,14 +48,30 @@ struct RobotDef {
               "the sonars' field of view about the heading"),
         field("sonar_range", &R::sonar_range, "", closed(0.01, 100.0, "m"),
               "how far a sonar hears, from the body's rim"),
+        later(field("sonar_beam", &R::sonar_beam, "", closed(0.0, 90.0, "degrees"),
+                    "how wide a sonar's cone is; 0: a single ray")),
+        later(field("sonar_rays", &R::sonar_rays, "", whole(2, 181),
+                    "how many rays make a cone, evenly over it; the nearest echo is heard")),
+        later(field("sonar_specular", &R::sonar_specular, "", above(0.0, 90.0, "degrees"),
+                    "greatest angle between a ray and a surface's normal at which there is an "
+                    "echo; beyond, the sound is thrown elsewhere")),
+        later(field("sonar_least_range", &R::sonar_least_range, "", closed(0.0, 100.0, "m"),
+                    "nearer echoes are told as this far")),
+        later(field("sonar_blind_time", &R::sonar_blind_time, "", closed(0.0, 1.0, "s"),
+                    "how long after its ping a sonar is deaf, in air: echoes from nearer than "
+                    "171.5 m/s times it are not heard")),
         field(
             "safety_margin", &R::safety_margin, "", or_none(above(0.0, 10.0, "m")),
             "what a safety layer keeps between body and obstacles: motions that would lead nearer "
             "are not allowed; none for no such layer"));
   }
 
-  /// Throws InvalidValue unless every field lies in its range and a step is at most 1 m.
+  /// Throws InvalidValue unless every field lies in its range, a step is at most 1 m, and sonars
+  /// hear further than sonar_least_range.
   void validate() const;
+  /// The robot in a JSON file, an object of these fields (robot.schema.json); those left out keep
+  /// their defaults. Throws FileError, naming file and field.
+  static RobotDef load(const std::string& path);
   /// Where each sonar looks, relative to the heading [degrees]: evenly over the field of view from
   /// right to left (at 360 degrees without doubling the rear).
   std::vector<double> sonar_angles() const;
@@ -90,17 +112,23 @@ class Robot {
   /// outside M or a pose that require_place refuses.
   Move step(const Pose& pose, int motion) const;
 
+  /// The same for any turn, in degrees, and any speed of the drive from 0 m/s on, at
+  /// most 1 m a step: what becomes of a motion that is not made exactly. Throws InvalidValue.
+  Move drive(const Pose& pose, double turn, double speed) const;
+
   /// Which motions the robot can make from a pose, as its safety layer sees it: those that keep its
   /// body further than safety_margin from obstacles and walls all along the way of Eq. 1. Where
   /// none does, or there is no such layer, every one. `allowed` has room for a bool a motion;
   /// whether any is false. Throws InvalidValue for a pose that is not finite.
   bool allowed(const Pose& pose, bool* allowed) const;
 
-  /// Echo distances from the body's rim [m], one for each sonar from right to left, by raycast;
-  /// sonar_range where nothing is heard, 0 where something touches the rim. `echoes` has room for
-  /// sonar_count values.
+  /// Echo distances from the body's rim [m], one for each sonar from right to left, by raycast:
+  /// sonar_range where nothing is heard, 0 (or sonar_least_range) where something touches the rim.
+  /// `echoes` has room for sonar_count values.
   void sonar(const Pose& pose, double* echoes) const;
-  /// The same as a vector.
+  /// The same, each sonar looking aside by some degrees.
+  void sonar(const Pose& pose, const double* aside, double* echoes) const;
+  /// As a vector.
   std::vector<double> sonar(const Pose& pose) const;
 
   /// Eq. 2: wheel speeds of the turn, held for one sample time.
@@ -116,6 +144,8 @@ class Robot {
   const World& world() const noexcept { return *world_; }  ///< as given
 
  private:
+  Move move(const Pose& pose, double turn, double speed) const;
+
   std::shared_ptr<const World> world_;
   RobotDef def_;
   std::unique_ptr<Sonars> sonars_;

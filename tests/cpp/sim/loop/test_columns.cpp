@@ -13,6 +13,7 @@
 
 using devlearn::InvalidValue;
 using devlearn::Record;
+using devlearn::NoiseDef;
 using devlearn::RobotDef;
 using devlearn::Trial;
 using devlearn::TrialConfig;
@@ -31,6 +32,7 @@ bool same(const std::vector<T>& a, const std::vector<T>& b) {
 
 TEST_CASE("every member of a trial's Defs is described, compared, and refused beyond its bounds") {
   field_laws::check_fields<RobotDef>();
+  field_laws::check_fields<NoiseDef>();
   field_laws::check_fields<TrialConfig>();
 }
 

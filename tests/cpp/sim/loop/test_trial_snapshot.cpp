@@ -452,7 +452,7 @@ TEST_CASE("a trial's snapshot that lies is refused, naming the lie") {
 
   SUBCASE("about what it is") {
     CHECK(with_entry("format", "devlearn-learner") == "format");
-    CHECK(with_entry("format_version", "3") == "format_version");
+    CHECK(with_entry("format_version", "4") == "format_version");
     CHECK(with_entry("format_version", "0") == "format_version");
     CHECK(with_entry("format_version", "one") == "format_version");
     const Bytes learner = to_bytes(Learner());

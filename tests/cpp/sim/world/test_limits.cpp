@@ -105,7 +105,7 @@ TEST_CASE("a million points in all are the most, whether of outlines, holes or t
 TEST_CASE("the last round can be begun and lived in, and no further one") {
   constexpr std::int32_t kLast = 1 << 30;
   Trial trial{World()};
-  trial.resume(trial.pose(), kLast - 1, false);
+  trial.resume(trial.environment().state().place, kLast - 1, false);
   Record record;
   trial.path_learning(record, 1, 5);
   CHECK(trial.round() == kLast);
@@ -115,5 +115,5 @@ TEST_CASE("the last round can be begun and lived in, and no further one") {
   CHECK_THROWS_AS(trial.begin_round(), InvalidValue);
   CHECK(trial.round() == kLast);
   trial.run(record, 1);
-  CHECK_THROWS_AS(trial.resume(trial.pose(), kLast + 1, false), InvalidValue);
+  CHECK_THROWS_AS(trial.resume(trial.environment().state().place, kLast + 1, false), InvalidValue);
 }

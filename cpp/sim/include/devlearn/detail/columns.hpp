@@ -42,6 +42,10 @@ constexpr OrUnknown or_unknown(double low) {
 /// Whole numbers from `low` to the largest of their type.
 constexpr WholeNumbers from(long long low) { return {low, std::numeric_limits<long long>::max()}; }
 
+/// Whole numbers from 0 on, or -1: unknown, as in files of builds that had no such column.
+struct OrUntold : WholeNumbers {};
+constexpr OrUntold or_untold() { return {from(-1)}; }
+
 /// One column. Enums stand in it by their number.
 template <typename Record, typename T, typename Row, typename Member, typename Range>
 struct Column {
@@ -64,7 +68,13 @@ struct Column {
   }
 
   /// Whether files of earlier builds may lack it.
-  static constexpr bool may_lack() { return std::is_same_v<Range, OrUnknown>; }
+  static constexpr bool may_lack() {
+    return std::is_same_v<Range, OrUnknown> || std::is_same_v<Range, OrUntold>;
+  }
+  /// What stands in it then.
+  static constexpr T missing() {
+    return std::is_same_v<T, double> ? std::numeric_limits<T>::quiet_NaN() : static_cast<T>(-1);
+  }
 
   void append(Record& record, const Row& row) const {
     if constexpr (std::is_same_v<Member, std::optional<T>>) {
@@ -80,7 +90,7 @@ struct Column {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (range.allows(all[i])) continue;
       const std::string quantity = "record." + std::string(name) + "[" + std::to_string(i) + "]";
-      if constexpr (std::is_same_v<Range, Interval> || may_lack()) {
+      if constexpr (std::is_same_v<Range, Interval> || std::is_same_v<Range, OrUnknown>) {
         refuse(quantity, to_text(all[i]), range.text());
       } else {
         const long long most = std::min<long long>(range.high, std::numeric_limits<T>::max());

@@ -1,0 +1,249 @@
+#include "devlearn/environment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "devlearn/detail/require.hpp"
+#include "devlearn/error.hpp"
+#include "devlearn/math.hpp"
+
+namespace devlearn {
+namespace {
+
+// A collision is never effective, whatever it gained.
+constexpr double kCollisionSmf = -1.0;
+
+// Cells of cell_size over the arena, from its origin; the last ones may reach beyond it. Only where
+// odometry errs is the robot ever believed to be outside.
+SituationGrid grid_over(const World& world, const TrialConfig& config) {
+  const auto cells = [&](double side) {
+    return static_cast<int>(std::max(1.0, std::ceil(side / config.cell_size - 1e-9)));
+  };
+  const auto covered = [&](double side) { return std::max(side, cells(side) * config.cell_size); };
+  const double width = world.def().width, height = world.def().height;
+  return SituationGrid(covered(width), covered(height), cells(width), cells(height),
+                       config.heading_bins, world.def().origin,
+                       config.noise.of_odometry() ? Outside::kClamp : Outside::kRefuse);
+}
+
+// SEFs differ by what a double can hold.
+constexpr double kMostSef = 1e300;
+
+double require_sef(const std::string& quantity, double sef) {
+  require_in(quantity, sef, -kMostSef, kMostSef);
+  return sef;
+}
+
+template <typename Value>
+void require_named(const char* quantity, const NamedFunction<Value>& part) {
+  if (part.function && part.name.empty()) {
+    throw InvalidValue(std::string(quantity) + ".name", "''", "a name, by which snapshots know it");
+  }
+  if (!part.function && !part.name.empty()) {
+    throw InvalidValue(std::string(quantity) + ".function", "null", "a function of that name");
+  }
+}
+
+}  // namespace
+
+Environment::Environment(const World& world, const TrialConfig& config, std::uint64_t seed,
+                         TrialParts parts)
+    : Environment(std::make_shared<const Fixed>(world, config, std::move(parts)), seed) {}
+
+Environment::Environment(std::shared_ptr<const Fixed> fixed, std::uint64_t seed)
+    : fixed_(std::move(fixed)),
+      state_{{{}, {}, Random(seed, "noise")}, {}, -1, false, {}, Random(seed, "noise")},
+      allowed_(std::make_unique<bool[]>(static_cast<std::size_t>(config().motion_count()))) {
+  const Pose& start = world().def().start;
+  robot().require_place(start, "start");
+  state_ = sensed({start, start, state_.noise});
+}
+
+Environment::~Environment() = default;
+Environment::Environment(Environment&&) noexcept = default;
+Environment& Environment::operator=(Environment&&) noexcept = default;
+
+Environment Environment::twin(std::uint64_t seed) const { return Environment(fixed_, seed); }
+
+Environment::Fixed::Fixed(const World& world, const TrialConfig& given, TrialParts own)
+    : config((given.validate(), given)),
+      robot(world, config.robot),
+      grid(grid_over(world, config)),
+      parts(std::move(own)) {
+  require_parts();
+}
+
+void Environment::Fixed::require_parts() const {
+  require_named("TrialParts.evaluation", parts.evaluation);
+  require_named("TrialParts.situations", parts.situations);
+  const std::vector<double>& table = parts.sef_table;
+  if (table.empty()) return;
+  const char* const quantity = "TrialParts.sef_table";
+  if (parts.evaluation.function) {
+    throw InvalidValue(quantity, "given, and an evaluation too", "only one of them");
+  }
+  if (parts.situations.function) {
+    throw InvalidValue(quantity, "given, and situations of one's own too",
+                       "an evaluation: a table is of the grid's situations");
+  }
+  require_size(quantity, table.size(), static_cast<std::uint64_t>(grid.count()));
+  require_each(table.size(), [&](std::size_t i) { require_sef(quantity, table[i]); });
+}
+
+// What an agent chooses by.
+const Observation& Environment::look() {
+  const bool any_refused = robot().allowed(pose(), allowed_.get());
+  state_.here.allowed = {};
+  if (any_refused) {
+    state_.here.allowed = {allowed_.get(), static_cast<std::size_t>(state_.here.motion_count)};
+  }
+  return state_.here;
+}
+
+Environment::Transition Environment::after(int motion) const {
+  Random noise = state_.noise;
+  // -> motion (Eq. 1)
+  const Robot::Move made = moved(motion, noise);
+  // world -> sense -> situation, and its SEF (Eq. 6)
+  const Pose estimate = reckoned(made.pose, noise);
+  State next = sensed({made.pose, estimate, noise});
+  // -> evaluation (Eq. 8)
+  const double smf = next.here.sef - state_.here.sef;
+  const Outcome outcome = outcome_of(next, smf, made.collided);
+  return {std::move(next), smf, outcome};
+}
+
+Environment::State Environment::standing(const Pose& pose) const {
+  return standing({pose, pose, state_.noise});
+}
+
+Environment::State Environment::standing(const Place& place) const {
+  robot().require_place(place.pose);
+  return sensed(place);
+}
+
+// As well as the robot makes it.
+Robot::Move Environment::moved(int motion, Random& noise) const {
+  const NoiseDef& def = config().noise;
+  const RobotDef& body = config().robot;
+  require_count("motion", motion, 0, config().motion_count() - 1);
+  if (def.slip > 0.0 && noise.uniform() < def.slip) {
+    motion = static_cast<int>(noise.index(static_cast<std::uint32_t>(config().motion_count())));
+  }
+  if (!def.of_motion()) return robot().step(pose(), motion);
+  const double turn = body.steering_angles[static_cast<std::size_t>(motion)];
+  const double off = def.turn * noise.normal();
+  const double faster = def.drive * noise.normal() / body.sample_time;
+  return robot().drive(pose(), turn + off,
+                       std::clamp(body.speed + faster, 0.0, 1.0 / body.sample_time));
+}
+
+// The pose that odometry makes of the way to another, seen from where it believed the robot to be.
+Pose Environment::reckoned(const Pose& to, Random& noise) const {
+  const NoiseDef& def = config().noise;
+  if (!def.of_odometry()) return to;
+  const auto& [from, believed, stream] = state_.place;
+  const double turned = def.odometry_turn * noise.normal();
+  const double driven = 1.0 + def.odometry_drive * noise.normal();
+  const double heading = wrapped_heading(believed.heading + (to.heading - from.heading) + turned);
+  const Direction ahead = direction(to.heading), ahead_as_believed = direction(heading);
+  const double dx = to.x - from.x, dy = to.y - from.y;
+  const double along = driven * (dx * ahead.x + dy * ahead.y);
+  const double aside = driven * (dy * ahead.x - dx * ahead.y);
+  return {believed.x + along * ahead_as_believed.x - aside * ahead_as_believed.y,
+          believed.y + along * ahead_as_believed.y + aside * ahead_as_believed.x, heading};
+}
+
+// What is sensed at a place, and its situation and SEF.
+Environment::State Environment::sensed(const Place& place) const {
+  State state{place, {}, -1, false, {}, place.noise};
+  const bool by_sonar = config().clearance_source == ClearanceSource::kSonar;
+  if (by_sonar || config().noise.of_sonars()) state.echoes = heard(place.pose, state.noise);
+  const auto& [pose, estimate, stream] = place;
+  Observation& here = state.here;
+  here.pose = estimate;
+  here.goal_distance = distance_to_target(estimate);
+  // d_o of Eq. 6
+  here.clearance =
+      by_sonar ? *std::min_element(state.echoes.begin(), state.echoes.end()) + config().robot.radius
+               : world().clearance({pose.x, pose.y}, config().walls_count);
+  const Senses senses{estimate, here.goal_distance, here.clearance};
+  here.situation = state.true_situation = situation(senses);
+  here.sef = sef(senses, here.situation);
+  double distance = here.goal_distance;
+  if (config().noise.of_odometry()) {
+    distance = distance_to_target(pose);
+    state.true_situation = situation({pose, distance, here.clearance});
+  }
+  state.arrived = distance <= config().goal_radius;
+  if (!state.arrived) {
+    here.estimate = here.goal_distance / (config().robot.speed * config().robot.sample_time);
+  }
+  here.motion_count = config().motion_count();
+  return state;
+}
+
+// Echoes as the sonars tell them.
+std::vector<double> Environment::heard(const Pose& pose, Random& noise) const {
+  const NoiseDef& def = config().noise;
+  if (!def.of_sonars()) return robot().sonar(pose);
+  const double range = config().robot.sonar_range;
+  std::vector<double> echoes(static_cast<std::size_t>(config().robot.sonar_count)), aside(echoes);
+  for (double& angle : aside) angle = def.bearing * noise.normal();
+  robot().sonar(pose, aside.data(), echoes.data());
+  for (double& echo : echoes) {
+    const double off = def.echo * noise.normal();
+    const bool lost = noise.uniform() < def.dropout;
+    echo = lost || echo >= range ? range : std::clamp(echo + off, 0.0, range);
+  }
+  return echoes;
+}
+
+std::vector<double> Environment::echoes() const {
+  return state_.echoes.empty() ? robot().sonar(pose()) : state_.echoes;
+}
+
+double Environment::distance_to_target(const Pose& pose) const noexcept {
+  const double dx = pose.x - world().def().target.x;
+  const double dy = pose.y - world().def().target.y;
+  return std::sqrt(dx * dx + dy * dy);
+}
+
+// Step 1, or what stands in its place.
+SituationId Environment::situation(const Senses& senses) const {
+  const NamedFunction<SituationId>& own = parts().situations;
+  const auto& [x, y, heading] = senses.pose;
+  if (!own.function) return grid().situation(x, y, heading);
+  const SituationId id = own.function(senses);
+  if (id < 0) {
+    throw InvalidValue("situation by " + own.name, std::to_string(id), "in [0, 2^63 - 1]");
+  }
+  return id;
+}
+
+// Eq. 6, or what stands in its place.
+double Environment::sef(const Senses& senses, SituationId situation) const {
+  const NamedFunction<double>& own = parts().evaluation;
+  if (own.function) return require_sef("SEF by " + own.name, own.function(senses));
+  const std::vector<double>& table = parts().sef_table;
+  if (!table.empty()) return table[static_cast<std::size_t>(situation)];
+  return config().evaluation(senses.goal_distance, senses.clearance);
+}
+
+// What an agent is told of a motion.
+Outcome Environment::outcome_of(const State& next, double smf, bool collided) const {
+  Outcome outcome;
+  outcome.situation = next.here.situation;
+  outcome.sef = next.here.sef;
+  outcome.smf = collided ? std::min(smf, kCollisionSmf) : smf;
+  outcome.collided = collided;
+  outcome.arrived = next.arrived;
+  outcome.estimate = next.here.estimate;
+  if (collided) outcome.cost += config().touch_cost;
+  return outcome;
+}
+
+}  // namespace devlearn
