@@ -9,8 +9,8 @@ step's turn, drive and slip; odometry's errors; an adaptive learner with the tol
     much     turn 5 degrees, drive 10 mm, 5 % of motions random, odometry 1 degree and 5 %
 
 What is told of each: the share of the last 50 rounds that arrived, and the median of their steps
-over the shortest path's, over the seeds (median, 10-90 %); how often it took itself to be in another
-situation than it was. Held good, as said before it was run: `adaptive` arrives in 95 % of the last
+over the shortest path's, over the seeds (median, 10-90 %); how often it took itself to be in
+another situation than it was. Held good, as said before it was run: `adaptive` arrives in 95 % of the last
 50 rounds in both worlds at the levels little and some.
 
     python bench/noise.py [SEEDS] > noise.txt

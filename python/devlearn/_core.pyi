@@ -31,6 +31,7 @@ __all__: list[str] = [
     "LrtaStar",
     "LrtaStarConfig",
     "MemoryUse",
+    "NoiseDef",
     "Observation",
     "Outcome",
     "Polygon",
@@ -107,6 +108,10 @@ class Random:
     def next(self) -> int:
         """
         64 random bits as an int.
+        """
+    def normal(self) -> float:
+        """
+        Normal with mean 0 and standard deviation 1, as far as twelve uniform numbers less six are (Irwin-Hall); never beyond 6.
         """
     def uniform(self) -> float:
         """
@@ -1517,6 +1522,19 @@ class RobotDef:
         The sonars' field of view about the heading; in [0, 360] degrees.
     sonar_range
         How far a sonar hears, from the body's rim; in [0.01, 100] m.
+    sonar_beam
+        How wide a sonar's cone is; 0: a single ray; in [0, 90] degrees.
+    sonar_rays
+        How many rays make a cone, evenly over it; the nearest echo is heard; a whole number in [2,
+        181].
+    sonar_specular
+        Greatest angle between a ray and a surface's normal at which there is an echo; beyond, the
+        sound is thrown elsewhere; in (0, 90] degrees.
+    sonar_least_range
+        Nearer echoes are told as this far; in [0, 100] m.
+    sonar_blind_time
+        How long after its ping a sonar is deaf, in air: echoes from nearer than 171.5 m/s times it
+        are not heard; in [0, 1] s.
     safety_margin
         What a safety layer keeps between body and obstacles: motions that would lead nearer are not
         allowed; none for no such layer; in (0, 10] m, or none.
@@ -1530,6 +1548,11 @@ class RobotDef:
     def from_dict(fields: dict[str, typing.Any]) -> RobotDef:
         """
         From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    @staticmethod
+    def load(path: typing.Any) -> RobotDef:
+        """
+        The robot in a JSON file, an object of these fields (robot.schema.json); those left out keep their defaults. Raises FileError.
         """
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1549,6 +1572,11 @@ class RobotDef:
         sonar_count: typing.SupportsIndex = 5,
         sonar_fov: typing.SupportsFloat | typing.SupportsIndex = 180.0,
         sonar_range: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+        sonar_beam: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        sonar_rays: typing.SupportsIndex = 5,
+        sonar_specular: typing.SupportsFloat | typing.SupportsIndex = 90.0,
+        sonar_least_range: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        sonar_blind_time: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         safety_margin: typing.SupportsFloat | typing.SupportsIndex | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
@@ -1581,6 +1609,16 @@ class RobotDef:
         t_s: how long a step's drive lasts, and its turn by Eq. 2; v t_s is at most 1 m; in (0, 10] s.
         """
     @property
+    def sonar_beam(self) -> float:
+        """
+        How wide a sonar's cone is; 0: a single ray; in [0, 90] degrees.
+        """
+    @property
+    def sonar_blind_time(self) -> float:
+        """
+        How long after its ping a sonar is deaf, in air: echoes from nearer than 171.5 m/s times it are not heard; in [0, 1] s.
+        """
+    @property
     def sonar_count(self) -> int:
         """
         Number of sonars; a whole number in [0, 720].
@@ -1591,9 +1629,24 @@ class RobotDef:
         The sonars' field of view about the heading; in [0, 360] degrees.
         """
     @property
+    def sonar_least_range(self) -> float:
+        """
+        Nearer echoes are told as this far; in [0, 100] m.
+        """
+    @property
     def sonar_range(self) -> float:
         """
         How far a sonar hears, from the body's rim; in [0.01, 100] m.
+        """
+    @property
+    def sonar_rays(self) -> int:
+        """
+        How many rays make a cone, evenly over it; the nearest echo is heard; a whole number in [2, 181].
+        """
+    @property
+    def sonar_specular(self) -> float:
+        """
+        Greatest angle between a ray and a surface's normal at which there is an echo; beyond, the sound is thrown elsewhere; in (0, 90] degrees.
         """
     @property
     def speed(self) -> float:
@@ -1622,6 +1675,15 @@ class Robot:
     def allowed(self, pose: collections.abc.Sequence[float]) -> numpy.typing.NDArray[numpy.bool]:
         """
         Which motions the robot can make from a pose, as its safety layer sees it: those that keep its body further than safety_margin from obstacles and walls all along the way of Eq. 1. Where none does, or there is no such layer, every one. A bool array. Raises InvalidValue for a pose that is not finite.
+        """
+    def drive(
+        self,
+        pose: collections.abc.Sequence[float],
+        turn: typing.SupportsFloat | typing.SupportsIndex,
+        speed: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> tuple[devlearn._types.Pose, bool]:
+        """
+        The same for any turn [degrees] and any speed of the drive from 0 m/s on, at most 1 m a step: what becomes of a motion that is not made exactly. Raises InvalidValue.
         """
     def sonar(self, pose: collections.abc.Sequence[float]) -> numpy.ndarray:
         """
@@ -1773,6 +1835,11 @@ class Step:
     def smf_used(self) -> float:
         """
         What was learned from: min(smf, -1) for a collision.
+        """
+    @property
+    def true_situation(self) -> int:
+        """
+        The situation that the robot was in; another one where its odometry errs.
         """
     @property
     def value(self) -> float | None:
@@ -2974,6 +3041,108 @@ class ShortestPathAgent:
         Of the target [m].
         """
 
+class NoiseDef:
+    """
+    By how much chance spoils what a robot does and senses: standard deviations, and chances,
+    of each step, drawn from the stream "noise" of the trial's seed. By default there is none.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    turn
+        Standard deviation of a step's turn from the motion's; in [0, 90] degrees.
+    drive
+        Standard deviation of a step's drive from v t_s; it never goes backwards; in [0, 1] m.
+    slip
+        Chance that a motion drawn evenly from M is made in place of the one chosen; in [0, 1].
+    odometry_turn
+        Standard deviation of what odometry makes of a step's turn; it adds up until the robot is
+        put somewhere; in [0, 90] degrees.
+    odometry_drive
+        Standard deviation of what odometry makes of a step's way, as a share of it; likewise; in
+        [0, 1].
+    echo
+        Standard deviation of a sonar's echo distance; in [0, 10] m.
+    bearing
+        Standard deviation of where a sonar looks; in [0, 90] degrees.
+    dropout
+        Chance that a sonar hears nothing; in [0, 1].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> NoiseDef:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        turn: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        drive: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        slip: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        odometry_turn: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        odometry_drive: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        echo: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        bearing: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        dropout: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> NoiseDef:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def bearing(self) -> float:
+        """
+        Standard deviation of where a sonar looks; in [0, 90] degrees.
+        """
+    @property
+    def drive(self) -> float:
+        """
+        Standard deviation of a step's drive from v t_s; it never goes backwards; in [0, 1] m.
+        """
+    @property
+    def dropout(self) -> float:
+        """
+        Chance that a sonar hears nothing; in [0, 1].
+        """
+    @property
+    def echo(self) -> float:
+        """
+        Standard deviation of a sonar's echo distance; in [0, 10] m.
+        """
+    @property
+    def odometry_drive(self) -> float:
+        """
+        Standard deviation of what odometry makes of a step's way, as a share of it; likewise; in [0, 1].
+        """
+    @property
+    def odometry_turn(self) -> float:
+        """
+        Standard deviation of what odometry makes of a step's turn; it adds up until the robot is put somewhere; in [0, 90] degrees.
+        """
+    @property
+    def slip(self) -> float:
+        """
+        Chance that a motion drawn evenly from M is made in place of the one chosen; in [0, 1].
+        """
+    @property
+    def turn(self) -> float:
+        """
+        Standard deviation of a step's turn from the motion's; in [0, 90] degrees.
+        """
+
 class TrialConfig:
     """
     Everything a trial needs besides the world and the seed; the defaults are the paper's.
@@ -2989,6 +3158,8 @@ class TrialConfig:
         Step 2, Eq. 6; a StateEvaluation.
     robot
         Eq. 1-2; a RobotDef.
+    noise
+        What chance spoils of motions and senses; a NoiseDef.
     clearance_source
         Where d_o of Eq. 6 comes from: the exact distance, or the least echo plus the robot's
         radius; 'geometric' or 'sonar'.
@@ -3036,6 +3207,7 @@ class TrialConfig:
         learner: LearnerConfig | AdaptiveConfig | None = None,
         evaluation: StateEvaluation | None = None,
         robot: RobotDef | None = None,
+        noise: NoiseDef | None = None,
         clearance_source: str = "geometric",
         walls_count: bool = False,
         goal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.1,
@@ -3082,6 +3254,11 @@ class TrialConfig:
     def learner(self) -> LearnerConfig | AdaptiveConfig:
         """
         The paper's steps 3-5, or the adaptive learner; its motions are the robot's; a LearnerConfig or AdaptiveConfig.
+        """
+    @property
+    def noise(self) -> NoiseDef:
+        """
+        What chance spoils of motions and senses; a NoiseDef.
         """
     @property
     def robot(self) -> RobotDef:
@@ -3266,6 +3443,11 @@ class Trial:
         The TrialConfig.
         """
     @property
+    def estimated_pose(self) -> devlearn._types.Pose:
+        """
+        Where its odometry says the robot is; without noise, where it is.
+        """
+    @property
     def evaluation(self) -> typing.Any:
         """
         The callable or array that stands in place of Eq. 6; None for Eq. 6.
@@ -3392,7 +3574,7 @@ def yaw_of_heading(heading: typing.SupportsFloat | typing.SupportsIndex) -> floa
 __version__: str
 box2d_version: str
 commit: str
-later_columns: tuple[str, ...] = ("cost", "value")
+later_columns: dict
 pose_columns: dict[str, tuple[str, str]] = {
     "x": ("float64", "of the robot's centre [m]"),
     "y": ("float64", "likewise [m]"),
@@ -3401,6 +3583,10 @@ pose_columns: dict[str, tuple[str, str]] = {
 step_columns: dict[str, tuple[str, str]] = {
     "round": ("int32", "the round the step belongs to, from 1"),
     "situation": ("int64", "before the step: S_i, in which the motion was chosen"),
+    "true_situation": (
+        "int64",
+        "the situation that the robot was in; another one where its odometry errs",
+    ),
     "motion": ("int32", "index in M"),
     "kind": ("uint8", "why it was chosen, a Kind"),
     "sef": ("float64", "after the step: SEF(t+1)"),

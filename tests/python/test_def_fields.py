@@ -14,8 +14,8 @@ import pytest
 from devlearn import (
     AdaptiveConfig,
     LearnerConfig,
-    Record,
     NoiseDef,
+    Record,
     RobotDef,
     StateEvaluation,
     TrialConfig,
@@ -196,7 +196,7 @@ def other(value):
         return type(value)(**changes)
     if value is None:
         return 0.15
-    return 1.5 * value if value > 1 else 0.5 * value or 0.5
+    return 1.5 * value if 1 < value < 50 else 0.5 * value or 0.5
 
 
 @each_config
