@@ -6,12 +6,13 @@ step's turn, drive and slip; odometry's errors; an adaptive learner with the tol
 
     little   turn 1 degree, drive 2 mm, odometry 0.2 degrees and 1 %
     some     turn 2 degrees, drive 5 mm, 2 % of motions random, odometry 0.5 degrees and 2 %
+             and the same with exact odometry, to tell the two apart
     much     turn 5 degrees, drive 10 mm, 5 % of motions random, odometry 1 degree and 5 %
 
 What is told of each: the share of the last 50 rounds that arrived, and the median of their steps
 over the shortest path's, over the seeds (median, 10-90 %); how often it took itself to be in
-another situation than it was. Held good, as said before it was run: `adaptive` arrives in 95 % of the last
-50 rounds in both worlds at the levels little and some.
+another situation than it was. Held good, as said before it was run: `adaptive` arrives in 95 % of
+the last 50 rounds in both worlds at the levels little and some.
 
     python bench/noise.py [SEEDS] > noise.txt
 """
@@ -28,6 +29,7 @@ LEVELS = {
     "none": NoiseDef(),
     "little": NoiseDef(turn=1, drive=0.002, odometry_turn=0.2, odometry_drive=0.01),
     "some": NoiseDef(turn=2, drive=0.005, slip=0.02, odometry_turn=0.5, odometry_drive=0.02),
+    "some, odometry exact": NoiseDef(turn=2, drive=0.005, slip=0.02),
     "much": NoiseDef(turn=5, drive=0.01, slip=0.05, odometry_turn=1, odometry_drive=0.05),
 }
 PRESETS = {"paper": TrialConfig()} | {

@@ -90,12 +90,12 @@ void bind_record(py::module_& m) {
   PYBIND11_NUMPY_DTYPE(Round, round, steps, arrived);
 
   m.attr("step_columns") = described(Record::step_columns());
-  py::dict may_lack;
+  py::list may_lack;
   detail::each_column(Record::step_columns(), [&](const auto& column) {
     if constexpr (std::decay_t<decltype(column)>::may_lack())
-      may_lack[column.name] = column.missing();
+      may_lack.append(column.name);
   });
-  m.attr("later_columns") = may_lack;
+  m.attr("later_columns") = py::tuple(may_lack);
   m.attr("pose_columns") = described(Record::pose_columns());
 
   py::class_<Step> step(m, "Step", "Everything about one step of a trial.");

@@ -3574,7 +3574,7 @@ def yaw_of_heading(heading: typing.SupportsFloat | typing.SupportsIndex) -> floa
 __version__: str
 box2d_version: str
 commit: str
-later_columns: dict
+later_columns: tuple[str, ...] = ("true_situation", "cost", "value")
 pose_columns: dict[str, tuple[str, str]] = {
     "x": ("float64", "of the robot's centre [m]"),
     "y": ("float64", "likewise [m]"),

@@ -339,7 +339,7 @@ class Record:  # noqa: D101 - made of the columns
         if len(rounds) > 0 and found.length("x") == 0:
             steps, poses = 0, 0
         columns = {
-            n: np.full(steps, _core.later_columns[n], dtype)
+            n: np.full(steps, np.nan if dtype.kind == "f" else -1, dtype)
             if n in _core.later_columns and n not in found
             else found.array(n, dtype, (steps,))
             for n, dtype in STEP_COLUMNS.items()
