@@ -44,6 +44,7 @@ void bind_agents(py::module_& m);
 void bind_value_agents(py::module_& m);
 void bind_trial(py::module_& m);
 void bind_trial_snapshot(py::module_& m);
+void bind_batch(py::module_& m);
 void bind_file(py::module_& m);
 
 /// A whole number from Python that devlearn refuses itself where it does not fit the C++ type.

@@ -43,6 +43,7 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_value_agents(m);
   devlearn::python::bind_trial(m);
   devlearn::python::bind_trial_snapshot(m);
+  devlearn::python::bind_batch(m);
   pickle_by_every_protocol(m);
   devlearn::python::explain_wrong_calls(m);
 }

@@ -205,6 +205,8 @@ InHand::InHand(const Tally* tally) : InHand() {
   take(tally, "Tally", For::kRunning);
 }
 
+InHand::InHand(const Batch& batch) : InHand() { take(&batch, "Batch", For::kRunning); }
+
 void InHand::take(const void* object, const char* name, For what) {
   leave_if_late();
   require_free(object, name, what);

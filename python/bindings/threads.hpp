@@ -17,6 +17,7 @@ namespace py = pybind11;
 
 namespace devlearn {
 class Agent;
+class Batch;
 class Tally;
 class Trial;
 }  // namespace devlearn
@@ -77,9 +78,9 @@ class Watch {
   std::exception_ptr raised_;
 };
 
-/// Marks a trial, its agent, a learner, or a tally, while it lives, as in the hands of this thread:
-/// of a run that changes it, or of one that reads it. A run is refused what another thread has in
-/// hand, and waits for who only reads it. Made and ended with the GIL held.
+/// Marks a trial, its agent, a learner, a tally, or a batch, while it lives, as in the hands of
+/// this thread: of a run that changes it, or of one that reads it. A run is refused what another
+/// thread has in hand, and waits for who only reads it. Made and ended with the GIL held.
 class InHand {
  public:
   enum class For : bool { kReading, kRunning };
@@ -88,6 +89,8 @@ class InHand {
   InHand(const AdaptiveLearner& learner, For what);
   /// Of a run, which is refused one that any other run counts into; null: of nothing.
   explicit InHand(const Tally* tally);
+  /// Of a step or a reset of one.
+  explicit InHand(const Batch& batch);
   ~InHand();
   InHand(const InHand&) = delete;
   InHand& operator=(const InHand&) = delete;

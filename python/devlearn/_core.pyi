@@ -17,6 +17,9 @@ __all__: list[str] = [
     "AdaptiveExplanation",
     "AdaptiveLearner",
     "AdaptiveMemory",
+    "Batch",
+    "BatchConfig",
+    "BatchRows",
     "ChoiceTrace",
     "Circle",
     "DynaQ",
@@ -3491,6 +3494,229 @@ class Trial:
     def situations(self) -> typing.Any:
         """
         The callable that stands in place of the grid's situations; None for the grid's.
+        """
+    @property
+    def world(self) -> World:
+        """
+        The World.
+        """
+
+class BatchConfig:
+    """
+    What episodes of a Batch are.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    reward
+        What a step is worth: -cost and by how much the estimate of the cost to go fell; -cost; SMF
+        as learned from; 1 at the target and 0 elsewhere; 'shaped' or 'cost' or 'smf' or 'sparse'.
+    step_limit
+        Steps after which an episode is truncated; a whole number in [1, 1099511627776].
+    autoreset
+        When the next episode begins: by the step after the last, which makes no motion, by the last
+        step itself, or by reset alone; 'next_step' or 'same_step' or 'disabled'.
+    sonars
+        Whether the sonars' echoes are told; true or false.
+    random_starts
+        Whether an episode begins at a pose drawn among those that may get to the target, in place
+        of the world's start; true or false.
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> BatchConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        reward: str = "shaped",
+        step_limit: typing.SupportsIndex = 10000,
+        autoreset: str = "next_step",
+        sonars: bool = False,
+        random_starts: bool = False,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> BatchConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def autoreset(self) -> str:
+        """
+        When the next episode begins: by the step after the last, which makes no motion, by the last step itself, or by reset alone; 'next_step' or 'same_step' or 'disabled'.
+        """
+    @property
+    def random_starts(self) -> bool:
+        """
+        Whether an episode begins at a pose drawn among those that may get to the target, in place of the world's start; true or false.
+        """
+    @property
+    def reward(self) -> str:
+        """
+        What a step is worth: -cost and by how much the estimate of the cost to go fell; -cost; SMF as learned from; 1 at the target and 0 elsewhere; 'shaped' or 'cost' or 'smf' or 'sparse'.
+        """
+    @property
+    def sonars(self) -> bool:
+        """
+        Whether the sonars' echoes are told; true or false.
+        """
+    @property
+    def step_limit(self) -> int:
+        """
+        Steps after which an episode is truncated; a whole number in [1, 1099511627776].
+        """
+
+class BatchRows:
+    """
+    What is known where the robots of a Batch are, a row an environment: arrays that show what is the case now.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def allowed(self) -> numpy.ndarray:
+        """
+        Which motions the robot can make: (count, motion_count) bools.
+        """
+    @property
+    def clearance(self) -> numpy.ndarray:
+        """
+        d_o [m]
+        """
+    @property
+    def echoes(self) -> numpy.ndarray:
+        """
+        The sonars' echoes: (count, sonar_count) [m]; no column where they are not told.
+        """
+    @property
+    def estimate(self) -> numpy.ndarray:
+        """
+        Cost to go at the least, in steps: d_g / (v t_s), 0 at the target.
+        """
+    @property
+    def goal_distance(self) -> numpy.ndarray:
+        """
+        d_g [m]
+        """
+    @property
+    def pose(self) -> numpy.ndarray:
+        """
+        x, y, heading: (count, 3) [m, m, degrees].
+        """
+    @property
+    def situation(self) -> numpy.ndarray:
+        """
+        The situation's id.
+        """
+
+class Batch:
+    """
+    Several environments of one world and configuration, which one call steps, in C++ and
+    without the GIL: a row each, in arrays that stay where they are and show what is the case.
+
+    An episode begins at the world's start, or at a drawn pose. It is terminated where the
+    robot arrives, and truncated after step_limit steps without that. What environment i does depends on its own
+    seed and motions alone, so it is the same in a batch of any size.
+
+    Parameters: world; count, in [1, 2^20]; config, a TrialConfig (None: the paper's); episodes,
+    a BatchConfig; seed: environment i is seeded with seed + i. Raises InvalidValue.
+    """
+    def __init__(
+        self,
+        world: World,
+        count: typing.SupportsInt | typing.SupportsIndex = 1,
+        config: TrialConfig | None = None,
+        episodes: BatchConfig | None = None,
+        seed: typing.SupportsIndex = 0,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    def __repr__(self) -> str: ...
+    def poses(self) -> numpy.ndarray:
+        """
+        Where the robots truly are, whatever they sense of it: a copy, (count, 3) [m, m, degrees].
+        """
+    def reset(
+        self, seeds: typing.Any = None, which: typing.Any = None, poses: typing.Any = None
+    ) -> None:
+        """
+        Begins an episode in every environment, or in `which`, bools. seeds: one an environment, a
+        uint64 array (None: what is drawn goes on); poses: where each begins, (count, 3) [m, m,
+        degrees] (None: as episodes do). Raises InvalidValue; then nothing was reset.
+        """
+    def step(self, motions: typing.Any) -> None:
+        """
+        One step of every environment: motions[i], an index of M, in environment i. One that the robot's safety layer would not allow is made, too. Raises InvalidValue, also where autoreset is disabled and an episode has ended; then nothing was stepped.
+        """
+    @property
+    def begun(self) -> numpy.ndarray:
+        """
+        Whether the step only began an episode.
+        """
+    @property
+    def collided(self) -> numpy.ndarray:
+        """
+        Whether the body touched something.
+        """
+    @property
+    def config(self) -> TrialConfig:
+        """
+        The TrialConfig.
+        """
+    @property
+    def cost(self) -> numpy.ndarray:
+        """
+        What it cost: 1, and touch_cost more where it collided.
+        """
+    @property
+    def episodes(self) -> BatchConfig:
+        """
+        The BatchConfig.
+        """
+    @property
+    def final_rows(self) -> BatchRows:
+        """
+        Where episodes ended that ended by the last step, if autoreset is same_step: the rows that are terminated or truncated.
+        """
+    @property
+    def grid(self) -> SituationGrid:
+        """
+        The SituationGrid over the arena.
+        """
+    @property
+    def reward(self) -> numpy.ndarray:
+        """
+        What the last step was worth, as BatchConfig.reward says.
+        """
+    @property
+    def rows(self) -> BatchRows:
+        """
+        Where the robots are, BatchRows.
+        """
+    @property
+    def smf(self) -> numpy.ndarray:
+        """
+        SMF of it as learned from: min(SMF, -1) for a collision.
+        """
+    @property
+    def terminated(self) -> numpy.ndarray:
+        """
+        Whether the target was reached.
+        """
+    @property
+    def truncated(self) -> numpy.ndarray:
+        """
+        Whether the step limit was.
         """
     @property
     def world(self) -> World:

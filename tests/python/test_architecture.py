@@ -152,7 +152,7 @@ ROOMS = {
     "comparison": {"analysis", "plots", "experiments"},
     "maps": set(),
     "cli": {"analysis", "plots", "experiments", "paper", "comparison", "maps"},
-    "envs": set(),
+    "envs": {"plots"},
 }
 EXTRAS = {
     "matplotlib": "plots",

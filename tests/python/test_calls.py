@@ -119,7 +119,7 @@ ODD = [
 
 # What is only had from a call has no constructor, and says so.
 RESULTS = {
-    "AdaptiveExplanation", "AdaptiveMemory", "ChoiceTrace", "Explanation", "MemoryUse",
+    "AdaptiveExplanation", "AdaptiveMemory", "BatchRows", "ChoiceTrace", "Explanation", "MemoryUse",
     "Recollection", "ShortestPath", "SituationMemory", "Step",
 }  # fmt: skip
 
@@ -137,7 +137,7 @@ def public():
         "Random": devlearn.Random(1, "x"), "SituationGrid": devlearn.SituationGrid(),
         "StateEvaluation": devlearn.StateEvaluation(), "LearnerConfig": LearnerConfig(),
         "TrialConfig": TrialConfig(), "RobotDef": devlearn.RobotDef(),
-        "RandomAgent": devlearn.RandomAgent(),
+        "RandomAgent": devlearn.RandomAgent(), "Batch": devlearn.Batch(WORLD, 2),
         **{
             name: agent(Robot(WORLD)) if name == "ShortestPathAgent" else agent()
             for name, agent in vars(agents).items()

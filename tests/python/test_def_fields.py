@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from devlearn import (
     AdaptiveConfig,
+    BatchConfig,
     LearnerConfig,
     NoiseDef,
     Record,
@@ -29,6 +30,7 @@ CONFIGS = [
     LearnerConfig, AdaptiveConfig, StateEvaluation, RobotDef, TrialConfig, agents.QLearning.Config,
     agents.ExpectedSarsa.Config, agents.SarsaLambda.Config, agents.DynaQ.Config,
     agents.PrioritizedSweeping.Config, agents.LrtaStar.Config, agents.RMax.Config,
+    BatchConfig,
 ]  # fmt: skip
 each_config = pytest.mark.parametrize("kind", CONFIGS)
 NO, WHOLE = "", "a whole number in [{}, {}]"
@@ -149,6 +151,13 @@ EXPECTED = {
         "theta": ("theta", NO, "in [1e-09, 1e+09]", 1e-6),
         "least_value": (NO, NO, "in [-1e+06, 0]", -1000.0),
     },
+    BatchConfig: {
+        "reward": (NO, NO, "'shaped' or 'cost' or 'smf' or 'sparse'", "shaped"),
+        "step_limit": (NO, NO, WHOLE.format(1, 2**40), 10_000),
+        "autoreset": (NO, NO, "'next_step' or 'same_step' or 'disabled'", "next_step"),
+        "sonars": (NO, NO, "true or false", False),
+        "random_starts": (NO, NO, "true or false", False),
+    },
 }
 
 
@@ -187,7 +196,8 @@ def other(value):
     if isinstance(value, str):
         names = {
             "abandon": "weaken", "retry": "wander", "geometric": "sonar", "constant": "estimate",
-            "estimate": "constant", "none": "sef", "accumulating": "replacing",
+            "estimate": "constant", "none": "sef", "accumulating": "replacing", "shaped": "cost",
+            "next_step": "same_step",
         }  # fmt: skip
         return names[value]
     if hasattr(value, "fields"):

@@ -48,7 +48,8 @@ def things():
             devlearn.Circle((1, 1), 1), devlearn.Rectangle((1, 1), (1, 1)),
             devlearn.Polygon([(1, 1), (2, 1), (2, 2)]), devlearn.Polyline([(1, 1), (2, 1)]),
             devlearn.StateEvaluation(),
-            devlearn.LearnerConfig(), devlearn.TrialConfig(), trial.learner.situation(760),
+            devlearn.LearnerConfig(), devlearn.TrialConfig(), devlearn.BatchConfig(),
+            trial.learner.situation(760),
             devlearn.AdaptiveConfig(), adaptive.learner.last_choice,
             adaptive.learner.situation(760), adaptive.learner.last_choice.recollections[0],
             trial.learner.memory_use, keeper.observation, keeper.outcome, trial.run(3),
@@ -91,6 +92,8 @@ def test_what_differs_is_not_equal():
         "Trial",
         "RandomAgent",
         "ShortestPath",
+        "Batch",
+        "BatchRows",
         *(a.__name__ for a in VALUE_AGENTS),
     ],
 )
@@ -99,6 +102,7 @@ def test_its_repr_says_more_than_where_it_lies(name):
     more = {
         "Learner": devlearn.Learner(), "Trial": Trial(world), "RandomAgent": devlearn.RandomAgent(),
         "ShortestPath": devlearn.shortest_path(Robot(world)),
+        "Batch": devlearn.Batch(world, 2), "BatchRows": devlearn.Batch(world, 2).rows,
         "ShortestPathAgent": agents.ShortestPathAgent(Robot(world)),
         **{agent.__name__: agent() for agent in VALUE_AGENTS},
     }  # fmt: skip
@@ -137,6 +141,6 @@ def test_a_shape_that_cannot_be_is_refused_where_it_is_made(make, says):
 def test_every_class_of_the_module_is_among_these():
     classes = {n for n, c in vars(_core).items() if isinstance(c, type) and not n.startswith("_")}
     others = {"Kind", "Event", "Learner", "Trial", "RandomAgent", "ShortestPath", "SituationMemory"}
-    others |= {"AdaptiveLearner", "ShortestPathAgent", "Tally"}
+    others |= {"AdaptiveLearner", "ShortestPathAgent", "Tally", "Batch", "BatchRows"}
     others |= {*(agent.__name__ for agent in VALUE_AGENTS)}
     assert classes <= {*THINGS, *others}

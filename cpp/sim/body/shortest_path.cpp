@@ -131,6 +131,21 @@ class Flood {
 
   bool reaches(const Pose& pose) const noexcept { return far_at(pose) < kClosed; }
 
+  // The corners of least x and y of the cells that it has reached, where in their middle the body
+  // fits outside the goal.
+  std::vector<Point> corners() const {
+    std::vector<Point> corners;
+    for (std::size_t i = 0; i < far_.size(); ++i) {
+      const auto cell = static_cast<std::int64_t>(i);
+      const Point middle = centre(cell % columns_, cell / columns_);
+      if (far_[i] >= kClosed || room_at(middle) < room_) continue;
+      if (distance(middle, world_.def().target) <= goal_radius_) continue;
+      corners.push_back({middle.x - 0.5 * cell_, middle.y - 0.5 * cell_});
+    }
+    return corners;
+  }
+  double cell() const noexcept { return cell_; }
+
   // About so many steps from a pose along the flood: between the middles of four cells, where all
   // are reached.
   double steps(const Pose& pose) const noexcept {
@@ -427,6 +442,30 @@ bool may_reach_target(const Robot& robot, const Pose& start, double goal_radius)
   Flood flood(robot, goal, goal_radius);
   flood.run({}, &start);
   return flood.reaches(start);
+}
+
+StartPlaces::StartPlaces(const Robot& robot, double goal_radius)
+    : world_(robot.world()), goal_radius_(goal_radius), room_(free_room(robot.def())) {
+  require_above("goal_radius", goal_radius, 0.0, 100.0, "m");
+  Flood flood(robot, Goal(robot, 0.0, goal_radius), goal_radius);
+  flood.run({});
+  cell_ = flood.cell();
+  corners_ = flood.corners();
+  if (corners_.empty()) {
+    throw InvalidValue("World.target", "one that no place leads to",
+                       "one that the robot's body can get to from somewhere");
+  }
+}
+
+// Where the body fits in a cell's middle it does so round it, so that a few draws suffice.
+Pose StartPlaces::draw(Random& random) const noexcept {
+  for (;;) {
+    const Point corner = corners_[random.index(static_cast<std::uint32_t>(corners_.size()))];
+    const Point place{corner.x + cell_ * random.uniform(), corner.y + cell_ * random.uniform()};
+    if (world_.clearance(place, true) < room_) continue;
+    if (distance(place, world_.def().target) <= goal_radius_) continue;
+    return {place.x, place.y, 360.0 * random.uniform()};
+  }
 }
 
 }  // namespace devlearn

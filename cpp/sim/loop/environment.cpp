@@ -202,8 +202,15 @@ std::vector<double> Environment::heard(const Pose& pose, Random& noise) const {
   return echoes;
 }
 
+void Environment::echoes(double* echoes) const {
+  if (state_.echoes.empty()) return robot().sonar(pose(), echoes);
+  std::copy(state_.echoes.begin(), state_.echoes.end(), echoes);
+}
+
 std::vector<double> Environment::echoes() const {
-  return state_.echoes.empty() ? robot().sonar(pose()) : state_.echoes;
+  std::vector<double> echoes(static_cast<std::size_t>(config().robot.sonar_count));
+  this->echoes(echoes.data());
+  return echoes;
 }
 
 double Environment::distance_to_target(const Pose& pose) const noexcept {

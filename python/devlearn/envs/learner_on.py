@@ -42,7 +42,8 @@ class LearnerOn:
     alone, an ``AdaptiveLearner`` from cost and estimate, value learners from the cost. Motions are
     the environment's actions; those that ``info["action_mask"]`` rules out are not allowed. Where
     an episode is terminated, nothing follows, whether it ended well or not: the outcome has
-    ``arrived``. Where it is only truncated, it has not.
+    ``arrived``. Where it is only truncated, it has not. ``info["collided"]``, where there is such,
+    is told, too.
 
     Parameters
     ----------
@@ -264,6 +265,7 @@ class LearnerOn:
                         cost=self._cost_of(reward, terminated),
                         estimate=estimate,
                         arrived=terminated,
+                        collided=bool(info.get("collided", False)),
                         sef=sef,
                         smf=reward if self._evaluation == "reward" else sef - before,
                     )

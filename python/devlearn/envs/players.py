@@ -156,7 +156,7 @@ class OfAdaptive(Knowing):
 
     def observe(self, outcome: Outcome) -> None:
         """As AdaptiveLearner.learn."""
-        self._learner.learn(outcome.cost, outcome.situation, outcome.estimate)
+        self._learner.learn(outcome.cost, outcome.situation, outcome.estimate, outcome.collided)
 
     def cancel(self) -> None:
         """As AdaptiveLearner."""

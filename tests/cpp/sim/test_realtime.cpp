@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
 #include <cstddef>
+#include <cstdint>
 
+#include "devlearn/batch.hpp"
 #include "devlearn/eigen_sim.hpp"
 #include "open_world.hpp"
 
@@ -34,4 +36,20 @@ TEST_CASE("clearances and echoes are filled in without allocating, once the sona
   CHECK(allocations_in(fill) > 0);  // the count counts
   CHECK(allocations_in(fill) == 0);
   CHECK(echoes(2, 1) > 0.0);
+}
+
+TEST_CASE("a batch steps and begins episodes without allocating, where nothing is touched") {
+  WorldDef def;
+  def.obstacles = {Circle{{2.5, 4.0}, 0.3}};
+  BatchConfig episodes;
+  episodes.step_limit = 12;  // round in a circle
+  episodes.autoreset = Autoreset::kSameStep;
+  episodes.sonars = true;
+  def.start = {2.5, 2.5, 0.0};
+  Batch batch(World(def), 3, {}, episodes);
+  const std::int64_t motions[] = {3, 1, 3};
+  batch.step(motions);
+  const long before = allocations;
+  for (int step = 0; step < 100; ++step) batch.step(motions);
+  CHECK(allocations == before);
 }

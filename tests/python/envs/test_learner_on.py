@@ -705,7 +705,7 @@ def test_without_gymnasium_it_is_said_how_to_get_it():
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.startswith("MissingExtra devlearn.envs needs gymnasium, which is not")
-    assert "pip install 'gymnasium>=1.0'" in run.stdout
+    assert "pip install 'gymnasium>=1.1'" in run.stdout
 
 
 def test_a_copy_of_the_learner_is_not_what_learns():

@@ -65,6 +65,8 @@ class Environment {
   bool arrived() const noexcept { return state_.arrived; }
   /// What its sonars hear: sonar_count values [m], as Robot::sonar has them, spoiled by noise.
   std::vector<double> echoes() const;
+  /// The same, filled in; `echoes` has room for sonar_count values.
+  void echoes(double* echoes) const;
 
   /// What an agent chooses by: what is sensed here, and what the robot can make of its motions. It
   /// is valid until the next call.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "devlearn/random.hpp"
 #include "devlearn/robot.hpp"
 #include "devlearn/situation.hpp"
 
@@ -54,5 +55,23 @@ ShortestPath shortest_path(const Robot& robot, const Pose& start, double goal_ra
 /// half a step or a 2048th of the arena, and to what the robot's motions allow. Throws InvalidValue
 /// as shortest_path does.
 bool may_reach_target(const Robot& robot, const Pose& start, double goal_radius = 0.1);
+
+/// The places from which a body of that size may get to the target, as may_reach_target has it,
+/// found once for all: what starts are drawn from.
+class StartPlaces {
+ public:
+  /// Takes as long as may_reach_target at worst. Throws InvalidValue for a goal_radius outside
+  /// (0, 100] m, and where there is no such place.
+  explicit StartPlaces(const Robot& robot, double goal_radius = 0.1);
+
+  /// A pose drawn evenly over these places, but for the target's surroundings of goal_radius, and
+  /// over all headings. The body fits there and touches nothing.
+  Pose draw(Random& random) const noexcept;
+
+ private:
+  World world_;
+  double goal_radius_, room_, cell_;
+  std::vector<Point> corners_;  // of the flood's cells in whose middle the body fits: of least x, y
+};
 
 }  // namespace devlearn
