@@ -3161,8 +3161,6 @@ class TrialConfig:
         Step 2, Eq. 6; a StateEvaluation.
     robot
         Eq. 1-2; a RobotDef.
-    noise
-        What chance spoils of motions and senses; a NoiseDef.
     clearance_source
         Where d_o of Eq. 6 comes from: the exact distance, or the least echo plus the robot's
         radius; 'geometric' or 'sonar'.
@@ -3177,6 +3175,8 @@ class TrialConfig:
         Side of a cell of the situation grid; in [0.001, 1000] m.
     heading_bins
         Headings of the situation grid; a whole number in [1, 3600].
+    noise
+        What chance spoils of motions and senses; a NoiseDef.
     """
     @staticmethod
     def adaptive() -> TrialConfig:
@@ -3210,13 +3210,13 @@ class TrialConfig:
         learner: LearnerConfig | AdaptiveConfig | None = None,
         evaluation: StateEvaluation | None = None,
         robot: RobotDef | None = None,
-        noise: NoiseDef | None = None,
         clearance_source: str = "geometric",
         walls_count: bool = False,
         goal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         touch_cost: typing.SupportsFloat | typing.SupportsIndex = 5.0,
         cell_size: typing.SupportsFloat | typing.SupportsIndex = 0.25,
         heading_bins: typing.SupportsIndex = 12,
+        noise: NoiseDef | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...

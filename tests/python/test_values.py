@@ -49,6 +49,7 @@ def things():
             devlearn.Polygon([(1, 1), (2, 1), (2, 2)]), devlearn.Polyline([(1, 1), (2, 1)]),
             devlearn.StateEvaluation(),
             devlearn.LearnerConfig(), devlearn.TrialConfig(), devlearn.BatchConfig(),
+            devlearn.NoiseDef(),
             trial.learner.situation(760),
             devlearn.AdaptiveConfig(), adaptive.learner.last_choice,
             adaptive.learner.situation(760), adaptive.learner.last_choice.recollections[0],

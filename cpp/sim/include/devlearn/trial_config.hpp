@@ -27,13 +27,13 @@ struct TrialConfig {
   std::variant<LearnerConfig, AdaptiveConfig> learner;
   StateEvaluation evaluation;
   RobotDef robot;
-  NoiseDef noise;
   ClearanceSource clearance_source = ClearanceSource::kGeometric;
   bool walls_count = false;
   double goal_radius = 0.1;
   double touch_cost = 5.0;
   double cell_size = 0.25;
   int heading_bins = 12;
+  NoiseDef noise;
 
   /// What each of them is, by name: symbol, range, meaning.
   static constexpr auto fields() {
@@ -45,7 +45,6 @@ struct TrialConfig {
               "the paper's steps 3-5, or the adaptive learner; its motions are the robot's"),
         field("evaluation", &C::evaluation, "", Nested{}, "step 2, Eq. 6"),
         field("robot", &C::robot, "", Nested{}, "Eq. 1-2"),
-        field("noise", &C::noise, "", Nested{}, "what chance spoils of motions and senses"),
         field("clearance_source", &C::clearance_source, "", names("geometric", "sonar"),
               "where d_o of Eq. 6 comes from: the exact distance, or the least echo plus the "
               "robot's radius"),
@@ -59,7 +58,8 @@ struct TrialConfig {
         field("cell_size", &C::cell_size, "", closed(0.001, 1000.0, "m"),
               "side of a cell of the situation grid"),
         field("heading_bins", &C::heading_bins, "", whole(1, 3600),
-              "headings of the situation grid"));
+              "headings of the situation grid"),
+        field("noise", &C::noise, "", Nested{}, "what chance spoils of motions and senses"));
   }
 
   /// The default; see LearnerConfig::paper.

@@ -3,7 +3,7 @@
 import pytest
 from conftest import refusal
 from devlearn import Rectangle, World, cli
-from test_maps import ROOM, TWO_ROOMS, drawn
+from test_ros_maps import ROOM, TWO_ROOMS, drawn
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
