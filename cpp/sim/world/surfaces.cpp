@@ -18,7 +18,7 @@ constexpr std::uint32_t kWalls = 4;  // edges that are no obstacles, the first
 constexpr double kBorder = 1.1;
 // A cell is split unless it holds few surfaces or is small [m]. Where more than so many things
 // would have to be looked at one by one, they are searched for instead.
-constexpr std::size_t kFew = 4, kMany = 16;
+constexpr std::size_t kFew = 4, kMany = 64;
 constexpr double kLeastSide = 0.02;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -113,11 +113,10 @@ void Surfaces::build() {
     const Unfinished here = std::move(unfinished.front());
     if (filled(here.held)) {
       cells_[here.cell].kind = Cell::Kind::kFilled;
-      cells_[here.cell].middle = here.held.middle;
       continue;
     }
     if (here.held.surfaces.size() <= kFew || here.square.side < kLeastSide || room < 0) {
-      if (here.held.surfaces.size() <= kMany) cells_[here.cell] = listed(here.held);
+      cells_[here.cell] = leaf_of(here.held);
       continue;
     }
     const std::size_t first = cells_.size();
@@ -197,31 +196,33 @@ bool Surfaces::filled(const Candidates& held) const {
   });
 }
 
-Surfaces::Cell Surfaces::listed(const Candidates& held) {
+Surfaces::Cell Surfaces::leaf_of(const Candidates& held) {
   Cell cell;
-  cell.kind = Cell::Kind::kListed;
-  cell.middle = held.middle;
   const auto end = [this] { return static_cast<std::uint32_t>(held_.size()); };
-  cell.first = cell.circles = end();
-  for (const std::uint32_t surface : held.surfaces) {
-    if (surface < edges_.size()) {
-      held_.push_back(surface);
-      cell.circles = end();
-    } else {
-      held_.push_back(surface - static_cast<std::uint32_t>(edges_.size()));
+  cell.first = end();
+  cell.surfaces_listed = held.surfaces.size() <= kMany;
+  cell.outlines_listed = held.sides.size() <= kMany;
+  if (cell.surfaces_listed) {
+    held_.insert(held_.end(), held.surfaces.begin(), held.surfaces.end());
+  }
+  const auto first_circle = std::lower_bound(held_.begin() + cell.first, held_.end(),
+                                             static_cast<std::uint32_t>(edges_.size()));
+  cell.circles = static_cast<std::uint32_t>(first_circle - held_.begin());
+  cell.outlines = end();
+  if (cell.outlines_listed) {
+    for (auto first = held.sides.begin(); first != held.sides.end();) {
+      const std::uint32_t outline = outline_of_[*first];
+      const auto last = std::find_if(first, held.sides.end(), [&](std::uint32_t side) {
+        return outline_of_[side] != outline;
+      });
+      const bool inside = std::binary_search(held.around.begin(), held.around.end(), outline);
+      held_.push_back(static_cast<std::uint32_t>(last - first) * 2 + (inside ? 1 : 0));
+      held_.insert(held_.end(), first, last);
+      first = last;
     }
   }
-  cell.outlines = end();
-  for (auto first = held.sides.begin(); first != held.sides.end();) {
-    const std::uint32_t outline = outline_of_[*first];
-    const auto last = std::find_if(
-        first, held.sides.end(), [&](std::uint32_t side) { return outline_of_[side] != outline; });
-    const bool inside = std::binary_search(held.around.begin(), held.around.end(), outline);
-    held_.push_back(static_cast<std::uint32_t>(last - first) * 2 + (inside ? 1 : 0));
-    held_.insert(held_.end(), first, last);
-    first = last;
-  }
   cell.last = end();
+  cell.middle = held.middle;
   cell.clearance = distance(cell, cell.middle);
   return cell;
 }
@@ -248,7 +249,7 @@ double Surfaces::distance_at_least(Point p) const noexcept {
 
 double Surfaces::distance(const Cell& cell, Point p) const noexcept {
   if (inside_any(cell, p)) return 0.0;
-  if (cell.kind == Cell::Kind::kSearched) return searched_distance(p);
+  if (!cell.surfaces_listed) return searched_distance(p);
   double squared = kInfinite;
   for (std::uint32_t i = cell.first; i < cell.circles; ++i) {
     const Edge& edge = edges_[held_[i]];
@@ -256,7 +257,7 @@ double Surfaces::distance(const Cell& cell, Point p) const noexcept {
   }
   double least = std::sqrt(squared);
   for (std::uint32_t i = cell.circles; i < cell.outlines; ++i) {
-    const Circle& circle = circles_[held_[i]];
+    const Circle& circle = circles_[held_[i] - edges_.size()];
     least = std::min(least, outside(circle, squared_length(p - circle.center)));
   }
   return least;
@@ -279,7 +280,7 @@ double Surfaces::searched_distance(Point p) const noexcept {
 
 bool Surfaces::inside_any(const Cell& leaf, Point p) const noexcept {
   if (leaf.kind == Cell::Kind::kFilled) return true;
-  if (leaf.kind == Cell::Kind::kSearched) {
+  if (!leaf.outlines_listed) {
     bool any = false;
     double limit = 0.0;
     bounds_.search({p, p}, limit, [&](std::uint32_t i) { any = any || inside(outlines_[i], p); });

@@ -19,9 +19,9 @@ namespace devlearn {
 /// what is nearest anywhere in the cell has d_s - rho <= d + rho. These a cell holds; leaving out
 /// the others changes no result, since kMargin exceeds what rounding can do to the comparison.
 ///
-/// Of each outline that has edges in a cell it also holds whether the cell's middle lies inside. So
-/// does then any point of the cell that an even number of these edges parts from the middle: the
-/// edges near a point tell, however long the outline is.
+/// Of each outline that has edges in a cell it also holds whether the cell's middle lies inside,
+/// and these edges. A point of the cell lies inside as the middle does if an even number of them
+/// lies across the way there: what is near tells, however long the outline is.
 class Surfaces {
  public:
   /// Of an arena with walls all around. An outline has rings, of which one holds the others, all
@@ -89,14 +89,14 @@ class Surfaces {
   struct Cell {
     enum class Kind : std::uint32_t {
       kSplit,   // into sixteen parts, cells_[first] and what follows, row by row
-      kListed,  // held_ from `first` on: edges, circles, and outlines with their sides (inside_any)
+      kLeaf,    // held_ from `first` on: edges, circles, and outlines with their sides (inside_any)
       kFilled,  // lies in an outline as a whole
-      kSearched,  // holds too many to list
     };
-    Kind kind = Kind::kSearched;
+    Kind kind = Kind::kLeaf;
+    bool surfaces_listed = false, outlines_listed = false;  // or so many that they are searched for
     std::uint32_t first = 0, circles = 0, outlines = 0, last = 0;
     Point middle;
-    double clearance = 0.0;  // distance(middle), 0 where the cell is not listed
+    double clearance = 0.0;  // distance(middle)
   };
 
   void add_edges(const Ring& ring, std::uint32_t outline);
@@ -105,7 +105,7 @@ class Surfaces {
   Point middle_of(const Square& square, const std::vector<std::uint32_t>& sides) const;
   std::vector<std::uint32_t> around(Point p, const Candidates& candidates) const;
   bool filled(const Candidates& held) const;
-  Cell listed(const Candidates& held);
+  Cell leaf_of(const Candidates& held);
   template <typename Meet>
   void search(const Box& place, double& limit, const Meet& meet) const;
   double distance(std::uint32_t surface, Point p) const noexcept;
