@@ -70,6 +70,7 @@ class Navigate(gymnasium.Env[Any, Any]):
         "render_modes": ["rgb_array", "human"],
         "render_fps": _FRAMES_A_SECOND,
     }
+    """What Gymnasium asks of rendering."""
 
     def __init__(
         self,
