@@ -40,9 +40,10 @@ constexpr double kSpeedOfSound = 343.0;
 
 std::vector<double> rays_of(const RobotDef& robot) {
   if (robot.sonar_beam == 0.0) return {0.0};
-  std::vector<double> rays;
-  for (int i = 0; i < robot.sonar_rays; ++i) {
-    rays.push_back(robot.sonar_beam * (static_cast<double>(i) / (robot.sonar_rays - 1) - 0.5));
+  std::vector<double> rays(static_cast<std::size_t>(robot.sonar_rays));
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    rays[i] =
+        robot.sonar_beam * (static_cast<double>(i) / static_cast<double>(rays.size() - 1) - 0.5);
   }
   return rays;
 }
