@@ -104,7 +104,7 @@ void Surfaces::build() {
   }
   all.middle = bound.grown_by(1.0).low;  // outside of everything
   // What all cells together may come to hold, where surfaces lie so that no split parts them.
-  auto room = static_cast<std::ptrdiff_t>(4096 + 32 * all.surfaces.size());
+  auto room = static_cast<std::ptrdiff_t>(4096 + 48 * all.surfaces.size());
 
   std::deque<Unfinished> unfinished;
   unfinished.push_back({0, root_, held_in(root_, all)});
