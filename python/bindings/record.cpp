@@ -77,7 +77,8 @@ Record record_of(const py::object& source) {
   const py::object rounds = source.attr("rounds");
   for (const py::handle entry : rounds) {
     record.rounds.push_back({entry["round"].cast<std::int32_t>(),
-                             entry["steps"].cast<std::int64_t>(), entry["arrived"].cast<bool>()});
+                             entry["steps"].cast<std::int64_t>(), entry["arrived"].cast<bool>(),
+                             entry["began"].cast<std::int64_t>()});
   }
   if (const py::object echoes = source.attr("echoes"); !echoes.is_none()) {
     copy_column<double>(source, "echoes", record.echoes);
@@ -87,7 +88,7 @@ Record record_of(const py::object& source) {
 }
 
 void bind_record(py::module_& m) {
-  PYBIND11_NUMPY_DTYPE(Round, round, steps, arrived);
+  PYBIND11_NUMPY_DTYPE(Round, round, steps, arrived, began);
 
   m.attr("step_columns") = described(Record::step_columns());
   py::list may_lack;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "config.hpp"
+#include "devlearn/detail/require.hpp"
 #include "devlearn/shortest_path.hpp"
 
 namespace devlearn::python {
@@ -31,7 +32,8 @@ void bind_robot(py::module_& m) {
   py::class_<Robot> robot(
       m, "Robot",
       "The robot's body in a world: how it moves and what its sonars hear. A step is a "
-      "pure function of (world, pose, motion).");
+      "pure function of (world, time, pose, motion). Times are the world's [s]: they say where its "
+      "movers are.");
   robot
       .def(py::init([](const World& world, const std::optional<RobotDef>& def) {
              return Robot(world, def.value_or(RobotDef{}));
@@ -39,16 +41,17 @@ void bind_robot(py::module_& m) {
            py::arg("world"), py::arg("robot") = py::none())
       .def(
           "step",
-          [](const Robot& self, const Pose& pose, Whole<MotionTag> motion) {
+          [](const Robot& self, const Pose& pose, Whole<MotionTag> motion, double time) {
+            require_finite("time", time);
             const Robot::Move step = [&] {
               const NoGil no_gil;
-              return self.step(pose, motion.value);
+              return self.step(pose, motion.value, time);
             }();
             return std::make_pair(step.pose, step.collided);
           },
-          py::arg("pose"), py::arg("motion"),
+          py::arg("pose"), py::arg("motion"), py::arg("time") = 0.0,
           "(next pose, collided): Eq. 1 exactly where the way is free, Box2D where there is "
-          "something to touch. Raises InvalidValue.")
+          "something to touch, or that pushes. Raises InvalidValue.")
       .def(
           "drive",
           [](const Robot& self, const Pose& pose, double turn, double speed) {
@@ -63,26 +66,29 @@ void bind_robot(py::module_& m) {
           "step: what becomes of a motion that is not made exactly. Raises InvalidValue.")
       .def(
           "allowed",
-          [](const Robot& self, const Pose& pose) {
+          [](const Robot& self, const Pose& pose, double time) {
+            require_finite("time", time);
             py::array_t<bool> allowed(static_cast<py::ssize_t>(self.def().steering_angles.size()));
-            self.allowed(pose, allowed.mutable_data());
+            self.allowed(pose, allowed.mutable_data(), time);
             return allowed;
           },
-          py::arg("pose"),
+          py::arg("pose"), py::arg("time") = 0.0,
           "Which motions the robot can make from a pose, as its safety layer sees it: those that "
-          "keep its body further than safety_margin from obstacles and walls all along the way of "
+          "keep its body further than safety_margin from obstacles, walls and movers all along the "
+          "way of "
           "Eq. 1. Where none does, or there is no such layer, every one. A bool array. Raises "
           "InvalidValue for a pose that is not finite.")
       .def(
           "sonar",
-          [](const Robot& self, const Pose& pose) {
+          [](const Robot& self, const Pose& pose, double time) {
+            require_finite("time", time);
             std::vector<double> echoes = [&] {
               const NoGil no_gil;
-              return self.sonar(pose);
+              return self.sonar(pose, time);
             }();
             return moved_array<double>(std::move(echoes));
           },
-          py::arg("pose"),
+          py::arg("pose"), py::arg("time") = 0.0,
           "Echo distances from the body's rim, right to left [m]; sonar_range where nothing is "
           "heard. A float64 array of sonar_count values.")
       .def(
@@ -158,7 +164,8 @@ void bind_robot(py::module_& m) {
       },
       py::arg("robot"), py::arg("start") = py::none(), py::arg("goal_radius") = 0.1,
       "The shortest way, in steps, that the robot's own motions allow from `start` (None: the\n"
-      "world's) to within goal_radius [m] of the target, touching nothing: a ShortestPath. What a\n"
+      "world's) to within goal_radius [m] of the target, touching nothing that stands still: a\n"
+      "ShortestPath. Of movers it knows nothing. What a\n"
       "learnt path is measured against.\n\n"
       "Found by A* over poses, those in one cell of a quarter step counting as one. Where the\n"
       "flooding of a grid shows that there is no way, that is known at once. In large arenas A* "

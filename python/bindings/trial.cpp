@@ -7,6 +7,8 @@
 #include <memory>
 #include <optional>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "agents.hpp"
 #include "bindings.hpp"
@@ -34,12 +36,19 @@ struct StepLimitTag {
   static constexpr const char* allowed = "a whole number in [1, 2^40]";
 };
 
+// (world, steps made when it was changed), the first first.
+std::vector<std::pair<World, std::int64_t>> earlier_worlds_of(const Trial& trial) {
+  std::vector<std::pair<World, std::int64_t>> worlds;
+  for (const auto& [world, steps] : trial.earlier_worlds()) worlds.emplace_back(world, steps);
+  return worlds;
+}
+
 RecordObject as_record(const Trial& trial, Record&& record) {
   return RecordObject(py::module_::import("devlearn.record")
                           .attr("Record")
                           .attr("_of_trial")(columns(std::move(record)), trial.world(),
                                              trial.config(), trial.seed(), agent_of(trial),
-                                             names_of(trial.parts())));
+                                             names_of(trial.parts()), earlier_worlds_of(trial)));
 }
 
 using Clock = std::chrono::steady_clock;
@@ -245,6 +254,19 @@ void bind_trial(py::module_& m) {
           },
           py::arg("x"), py::arg("y"), py::arg("heading"),
           "Puts the robot anywhere it fits [m, m, degrees] for a new round. Raises InvalidValue.")
+      .def(
+          "change_world",
+          [](Trial& self, const World& world) {
+            const InHand in_hand(self, InHand::For::kRunning);
+            const NoGil no_gil;
+            self.change_world(world);
+          },
+          py::arg("world"),
+          "Puts the robot at the start of another world, which has the same arena; robot, grid, "
+          "agent\n"
+          "and time stay. The present round ends, where the agent is in one. Records that follow "
+          "tell of\n"
+          "the earlier worlds in their provenance. Raises InvalidValue.")
       .def_property_readonly("pose", at_rest(&Trial::pose), "Where the robot is [m, m, degrees].")
       .def_property_readonly(
           "estimated_pose",
@@ -253,6 +275,16 @@ void bind_trial(py::module_& m) {
             return self.environment().state().place.estimate;
           },
           "Where its odometry says the robot is; without noise, where it is.")
+      .def_property_readonly("time", at_rest(&Trial::time),
+                             "The world's time: steps made so far, over all rounds, x sample_time "
+                             "[s].")
+      .def_property_readonly(
+          "earlier_worlds",
+          [](const Trial& self) {
+            require_free(&self, "Trial", InHand::For::kReading);
+            return earlier_worlds_of(self);
+          },
+          "What change_world changed: (World, steps made by then) of each, the first first.")
       .def_property_readonly("round", at_rest(&Trial::round),
                              "The present round, from 1; 0 before the first.")
       .def_property_readonly("round_open", at_rest(&Trial::round_open),

@@ -1,6 +1,8 @@
 #include "devlearn/world.hpp"
 
-#include <limits>
+#include <algorithm>
+#include <iterator>
+#include <variant>
 
 #include "bindings.hpp"
 #include "devlearn/detail/require.hpp"
@@ -8,11 +10,13 @@
 namespace devlearn::python {
 namespace {
 
-double clearance(const World& world, double x, double y, bool walls_count) {
+double clearance(const World& world, double x, double y, bool walls_count, double time) {
   require_finite("x", x);
   require_finite("y", y);
-  return world.clearance({x, y}, walls_count);
+  return world.clearance({x, y}, walls_count, time);
 }
+
+void require_time(double time) { require_in("time", time, 0.0, 1e9, "s"); }
 
 void bind_obstacles(py::module_& m) {
   py::class_<Circle> circle(m, "Circle",
@@ -92,10 +96,86 @@ void bind_obstacles(py::module_& m) {
   def_value(polyline, {"points"});
 }
 
+void bind_movers(py::module_& m) {
+  py::class_<MoverPath> path(
+      m, "MoverPath",
+      "A way along 2 to 10 000 points (x, y) [m], neighbours at least 0.01 m apart, at one speed "
+      "in\n"
+      "(0, 1] m/s. What comes after the last point: 'back' (the same way back to the first, and "
+      "so\n"
+      "on), 'around' (straight to the first, and around again) or 'stop'. Raises InvalidValue.");
+  path.def(py::init([](std::vector<Point> points, double speed, const std::string& then) {
+             const auto* const known =
+                 std::find(std::begin(MoverPath::kThens), std::end(MoverPath::kThens), then);
+             if (known == std::end(MoverPath::kThens)) {
+               throw InvalidValue("MoverPath.then", then, "'back', 'around' or 'stop'");
+             }
+             const MoverPath made{
+                 std::move(points), speed,
+                 static_cast<MoverPath::Then>(known - std::begin(MoverPath::kThens))};
+             made.validate("MoverPath");
+             return made;
+           }),
+           py::arg("points"), py::arg("speed"), py::arg("then") = "back")
+      .def_readonly("points", &MoverPath::points, "(x, y) of each [m]")
+      .def_readonly("speed", &MoverPath::speed, "[m/s]")
+      .def_property_readonly(
+          "then",
+          [](const MoverPath& self) {
+            return MoverPath::kThens[static_cast<std::size_t>(self.then)];
+          },
+          "'back', 'around' or 'stop'")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("MoverPath({}, {}, {!r})")
+            .format(self.attr("points"), self.attr("speed"), self.attr("then"));
+      });
+  def_value(path, {"points", "speed", "then"});
+  py::class_<MoverWalk> walk(
+      m, "MoverWalk",
+      "A walk by random waypoints: every leg_time seconds a new point, uniform in the box from\n"
+      "low (x, y) to high (x, y) [m]; straight and evenly from one to the next, at most at 1 m/s:\n"
+      "leg_time in [0.1, 1e6] s is at least what the box's diagonal takes then. Raises\n"
+      "InvalidValue.");
+  walk.def(py::init([](Whole<SeedTag> seed, const Point& low, const Point& high, double leg_time) {
+             const MoverWalk made{seed.value, low, high, leg_time};
+             made.validate("MoverWalk");
+             return made;
+           }),
+           py::arg("seed"), py::arg("low"), py::arg("high"), py::arg("leg_time"))
+      .def_readonly("seed", &MoverWalk::seed, "Of the points.")
+      .def_readonly("low", &MoverWalk::low, "The box's corner of least x and y [m]")
+      .def_readonly("high", &MoverWalk::high, "Its corner of greatest x and y [m]")
+      .def_readonly("leg_time", &MoverWalk::leg_time, "From point to point [s]")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("MoverWalk({}, {}, {}, {})")
+            .format(self.attr("seed"), self.attr("low"), self.attr("high"), self.attr("leg_time"));
+      });
+  def_value(walk, {"seed", "low", "high", "leg_time"});
+  py::class_<Mover> mover(
+      m, "Mover",
+      "An obstacle that moves and does not turn: a Circle or Rectangle whose centre, which is\n"
+      "given as (0, 0), goes along a MoverPath or MoverWalk from time 0 on. Raises InvalidValue.");
+  mover
+      .def(py::init([](std::variant<Circle, Rectangle> shape,
+                       std::variant<MoverPath, MoverWalk> course) {
+             Mover made{shape, std::move(course)};
+             made.validate("Mover");
+             return made;
+           }),
+           py::arg("shape"), py::arg("course"))
+      .def_readonly("shape", &Mover::shape, "A Circle or Rectangle about (0, 0).")
+      .def_readonly("course", &Mover::course, "A MoverPath or MoverWalk.")
+      .def("__repr__", [](const py::object& self) {
+        return py::str("Mover({}, {})").format(self.attr("shape"), self.attr("course"));
+      });
+  def_value(mover, {"shape", "course"});
+}
+
 }  // namespace
 
 void bind_world(py::module_& m) {
   bind_obstacles(m);
+  bind_movers(m);
 
   py::class_<World> world(
       m, "World",
@@ -103,22 +183,24 @@ void bind_world(py::module_& m) {
       "Parameters: width, height of the arena in [0.5, 1000] m; start (x, y, heading) and target\n"
       "(x, y) inside it and outside every obstacle, in metres and degrees; obstacles, a list of\n"
       "Circle, Rectangle, Polygon and Polyline; origin (x, y), the arena's corner of least x and\n"
-      "y, each within 100 000 m of 0. Raises InvalidValue.");
-  def_pickling(
-      world, {"width", "height", "start", "target", "obstacles", "name", "description", "origin"});
+      "y, each within 100 000 m of 0; movers, a list of Mover, which go through obstacles, walls\n"
+      "and each other, but not over the start. Where these are is a pure function of time [s], from\n"
+      "0 to 1e9. Raises InvalidValue.");
+  def_pickling(world, {"width", "height", "start", "target", "obstacles", "name", "description",
+                       "origin", "movers"});
   world
       .def(py::init([](double width, double height, const Pose& start, const Point& target,
                        std::vector<Obstacle> obstacles, std::string name, std::string description,
-                       const Point& origin) {
+                       const Point& origin, std::vector<Mover> movers) {
              const NoGil no_gil;
              return World(WorldDef{std::move(name), std::move(description), width, height, origin,
-                                   start, target, std::move(obstacles)});
+                                   start, target, std::move(obstacles), std::move(movers)});
            }),
            py::arg("width") = 5.0, py::arg("height") = 5.0,
            py::arg("start") = py::make_tuple(0.5, 0.5, 0.0),
            py::arg("target") = py::make_tuple(4.5, 4.5), py::arg("obstacles") = py::list(),
            py::arg("name") = "", py::arg("description") = "",
-           py::arg("origin") = py::make_tuple(0.0, 0.0))
+           py::arg("origin") = py::make_tuple(0.0, 0.0), py::arg("movers") = py::list())
       .def_static(
           "load",
           [](const py::object& path_or_name) {
@@ -181,25 +263,37 @@ void bind_world(py::module_& m) {
           py::arg("path"), "Writes to_json() to a file, atomically. Raises FileError.")
       .def("with_start", &World::with_start, py::arg("start"),
            "The same world with another start (x, y, heading). Raises InvalidValue.")
+      .def("standing", &World::standing, "The same world without its movers.")
+      .def(
+          "movers_at",
+          [](const World& self, double time) {
+            require_time(time);
+            return self.movers_at(time);
+          },
+          py::arg("time"),
+          "The movers where they are at a time [s], as a list of Circle and Rectangle. Raises "
+          "InvalidValue.")
       .def(
           "clearance",
-          [](const World& self, double x, double y, bool walls_count) {
-            return clearance(self, x, y, walls_count);
+          [](const World& self, double x, double y, bool walls_count, double time) {
+            require_time(time);
+            return clearance(self, x, y, walls_count, time);
           },
-          py::arg("x"), py::arg("y"), py::arg("walls_count") = false,
-          "d_o: least distance from a point to an obstacle's surface [m], 0 inside one, inf where "
-          "there is none; with walls_count the walls count too. Numbers or arrays. Raises "
-          "InvalidValue for what is not finite.")
+          py::arg("x"), py::arg("y"), py::arg("walls_count") = false, py::arg("time") = 0.0,
+          "d_o: least distance from a point to an obstacle's surface at a time [m], 0 inside one, "
+          "inf where there is none; with walls_count the walls count too. Numbers or arrays of "
+          "points. Raises InvalidValue for what is not finite.")
       .def(
           "clearance",
           [](const World& self, const py::array_t<double>& x, const py::array_t<double>& y,
-             bool walls_count) {
-            return py::vectorize([&self, walls_count](double px, double py_) {
+             bool walls_count, double time) {
+            require_time(time);
+            return py::vectorize([&self, walls_count, time](double px, double py_) {
               take_a_breath();
-              return clearance(self, px, py_, walls_count);
+              return clearance(self, px, py_, walls_count, time);
             })(x, y);
           },
-          py::arg("x"), py::arg("y"), py::arg("walls_count") = false)
+          py::arg("x"), py::arg("y"), py::arg("walls_count") = false, py::arg("time") = 0.0)
       .def_property_readonly(
           "name", [](const World& self) { return self.def().name; }, "For people.")
       .def_property_readonly(
@@ -219,6 +313,8 @@ void bind_world(py::module_& m) {
           "obstacles", [](const World& self) { return self.def().obstacles; },
           "Circle, Rectangle, Polygon and Polyline, as a list.")
       .def_property_readonly(
+          "movers", [](const World& self) { return self.def().movers; }, "Mover, as a list.")
+      .def_property_readonly(
           "hash",
           [](const World& self) {
             const py::bytes text(self.to_json());
@@ -233,9 +329,10 @@ void bind_world(py::module_& m) {
           py::is_operator())
       .def("__hash__", [](const World& self) { return py::hash(py::str(self.to_json())); })
       .def("__repr__", [](const World& self) {
+        const std::size_t movers = self.def().movers.size();
         return "<devlearn.World '" + self.def().name + "': " + to_text(self.def().width) + " x " +
                to_text(self.def().height) + " m, " + std::to_string(self.def().obstacles.size()) +
-               " obstacles>";
+               " obstacles" + (movers > 0 ? ", " + std::to_string(movers) + " movers>" : ">");
       });
 }
 

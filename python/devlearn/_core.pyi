@@ -34,6 +34,9 @@ __all__: list[str] = [
     "LrtaStar",
     "LrtaStarConfig",
     "MemoryUse",
+    "Mover",
+    "MoverPath",
+    "MoverWalk",
     "NoiseDef",
     "Observation",
     "Outcome",
@@ -1357,6 +1360,101 @@ class Polyline:
         (x, y) of each point [m]
         """
 
+class MoverPath:
+    """
+    A way along 2 to 10 000 points (x, y) [m], neighbours at least 0.01 m apart, at one speed in
+    (0, 1] m/s. What comes after the last point: 'back' (the same way back to the first, and so
+    on), 'around' (straight to the first, and around again) or 'stop'. Raises InvalidValue.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __init__(
+        self,
+        points: collections.abc.Sequence[collections.abc.Sequence[float]],
+        speed: typing.SupportsFloat | typing.SupportsIndex,
+        then: str = "back",
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    @property
+    def points(self) -> list[tuple[float, float]]:
+        """
+        (x, y) of each [m]
+        """
+    @property
+    def speed(self) -> float:
+        """
+        [m/s]
+        """
+    @property
+    def then(self) -> str:
+        """
+        'back', 'around' or 'stop'
+        """
+
+class MoverWalk:
+    """
+    A walk by random waypoints: every leg_time seconds a new point, uniform in the box from
+    low (x, y) to high (x, y) [m]; straight and evenly from one to the next, at most at 1 m/s:
+    leg_time in [0.1, 1e6] s is at least what the box's diagonal takes then. Raises
+    InvalidValue.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __init__(
+        self,
+        seed: typing.SupportsIndex,
+        low: collections.abc.Sequence[float],
+        high: collections.abc.Sequence[float],
+        leg_time: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    @property
+    def high(self) -> tuple[float, float]:
+        """
+        Its corner of greatest x and y [m]
+        """
+    @property
+    def leg_time(self) -> float:
+        """
+        From point to point [s]
+        """
+    @property
+    def low(self) -> tuple[float, float]:
+        """
+        The box's corner of least x and y [m]
+        """
+    @property
+    def seed(self) -> int:
+        """
+        Of the points.
+        """
+
+class Mover:
+    """
+    An obstacle that moves and does not turn: a Circle or Rectangle whose centre, which is
+    given as (0, 0), goes along a MoverPath or MoverWalk from time 0 on. Raises InvalidValue.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __init__(self, shape: Circle | Rectangle, course: MoverPath | MoverWalk) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    @property
+    def course(self) -> MoverPath | MoverWalk:
+        """
+        A MoverPath or MoverWalk.
+        """
+    @property
+    def shape(self) -> Circle | Rectangle:
+        """
+        A Circle or Rectangle about (0, 0).
+        """
+
 class World:
     """
     An arena with walls, obstacles, a start and a target; checked once, then unchanging.
@@ -1364,7 +1462,9 @@ class World:
     Parameters: width, height of the arena in [0.5, 1000] m; start (x, y, heading) and target
     (x, y) inside it and outside every obstacle, in metres and degrees; obstacles, a list of
     Circle, Rectangle, Polygon and Polyline; origin (x, y), the arena's corner of least x and
-    y, each within 100 000 m of 0. Raises InvalidValue.
+    y, each within 100 000 m of 0; movers, a list of Mover, which go through obstacles, walls
+    and each other, but not over the start. Where these are is a pure function of time [s], from
+    0 to 1e9. Raises InvalidValue.
     """
     @staticmethod
     def from_json(text: str) -> World:
@@ -1420,6 +1520,7 @@ class World:
         name: str = "",
         description: str = "",
         origin: collections.abc.Sequence[float] = (0.0, 0.0),
+        movers: collections.abc.Sequence[Mover] = [],
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
@@ -1429,9 +1530,10 @@ class World:
         x: typing.SupportsFloat | typing.SupportsIndex,
         y: typing.SupportsFloat | typing.SupportsIndex,
         walls_count: bool = False,
+        time: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> float:
         """
-        d_o: least distance from a point to an obstacle's surface [m], 0 inside one, inf where there is none; with walls_count the walls count too. Numbers or arrays. Raises InvalidValue for what is not finite.
+        d_o: least distance from a point to an obstacle's surface at a time [m], 0 inside one, inf where there is none; with walls_count the walls count too. Numbers or arrays of points. Raises InvalidValue for what is not finite.
         """
     @typing.overload
     def clearance(
@@ -1439,10 +1541,21 @@ class World:
         x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64],
         walls_count: bool = False,
+        time: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> typing.Any: ...
+    def movers_at(
+        self, time: typing.SupportsFloat | typing.SupportsIndex
+    ) -> list[Circle | Rectangle | Polygon | Polyline]:
+        """
+        The movers where they are at a time [s], as a list of Circle and Rectangle. Raises InvalidValue.
+        """
     def save(self, path: typing.Any) -> None:
         """
         Writes to_json() to a file, atomically. Raises FileError.
+        """
+    def standing(self) -> World:
+        """
+        The same world without its movers.
         """
     def to_json(self) -> str:
         """
@@ -1466,6 +1579,11 @@ class World:
     def height(self) -> float:
         """
         [m]
+        """
+    @property
+    def movers(self) -> list[Mover]:
+        """
+        Mover, as a list.
         """
     @property
     def name(self) -> str:
@@ -1669,15 +1787,19 @@ class RobotDef:
 
 class Robot:
     """
-    The robot's body in a world: how it moves and what its sonars hear. A step is a pure function of (world, pose, motion).
+    The robot's body in a world: how it moves and what its sonars hear. A step is a pure function of (world, time, pose, motion). Times are the world's [s]: they say where its movers are.
     """
     def __deepcopy__(self, memo: dict[str, typing.Any]) -> typing.Any: ...
     def __init__(self, world: World, robot: RobotDef | None = None) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
-    def allowed(self, pose: collections.abc.Sequence[float]) -> numpy.typing.NDArray[numpy.bool]:
+    def allowed(
+        self,
+        pose: collections.abc.Sequence[float],
+        time: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> numpy.typing.NDArray[numpy.bool]:
         """
-        Which motions the robot can make from a pose, as its safety layer sees it: those that keep its body further than safety_margin from obstacles and walls all along the way of Eq. 1. Where none does, or there is no such layer, every one. A bool array. Raises InvalidValue for a pose that is not finite.
+        Which motions the robot can make from a pose, as its safety layer sees it: those that keep its body further than safety_margin from obstacles, walls and movers all along the way of Eq. 1. Where none does, or there is no such layer, every one. A bool array. Raises InvalidValue for a pose that is not finite.
         """
     def drive(
         self,
@@ -1688,15 +1810,22 @@ class Robot:
         """
         The same for any turn [degrees] and any speed of the drive from 0 m/s on, at most 1 m a step: what becomes of a motion that is not made exactly. Raises InvalidValue.
         """
-    def sonar(self, pose: collections.abc.Sequence[float]) -> numpy.ndarray:
+    def sonar(
+        self,
+        pose: collections.abc.Sequence[float],
+        time: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> numpy.ndarray:
         """
         Echo distances from the body's rim, right to left [m]; sonar_range where nothing is heard. A float64 array of sonar_count values.
         """
     def step(
-        self, pose: collections.abc.Sequence[float], motion: typing.SupportsIndex
+        self,
+        pose: collections.abc.Sequence[float],
+        motion: typing.SupportsIndex,
+        time: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> tuple[devlearn._types.Pose, bool]:
         """
-        (next pose, collided): Eq. 1 exactly where the way is free, Box2D where there is something to touch. Raises InvalidValue.
+        (next pose, collided): Eq. 1 exactly where the way is free, Box2D where there is something to touch, or that pushes. Raises InvalidValue.
         """
     def turn_speeds(self, motion: typing.SupportsIndex) -> tuple[float, float]:
         """
@@ -3342,6 +3471,12 @@ class Trial:
         """
         Puts the robot at the start pose for a new round.
         """
+    def change_world(self, world: World) -> None:
+        """
+        Puts the robot at the start of another world, which has the same arena; robot, grid, agent
+        and time stay. The present round ends, where the agent is in one. Records that follow tell of
+        the earlier worlds in their provenance. Raises InvalidValue.
+        """
     def copy(self) -> typing.Any:
         """
         An independent trial, with an agent of its own, that goes on alike.
@@ -3446,6 +3581,11 @@ class Trial:
         The TrialConfig.
         """
     @property
+    def earlier_worlds(self) -> list[tuple[World, int]]:
+        """
+        What change_world changed: (World, steps made by then) of each, the first first.
+        """
+    @property
     def estimated_pose(self) -> devlearn._types.Pose:
         """
         Where its odometry says the robot is; without noise, where it is.
@@ -3494,6 +3634,11 @@ class Trial:
     def situations(self) -> typing.Any:
         """
         The callable that stands in place of the grid's situations; None for the grid's.
+        """
+    @property
+    def time(self) -> float:
+        """
+        The world's time: steps made so far, over all rounds, x sample_time [s].
         """
     @property
     def world(self) -> World:
@@ -3772,7 +3917,8 @@ def shortest_path(
 ) -> ShortestPath:
     """
     The shortest way, in steps, that the robot's own motions allow from `start` (None: the
-    world's) to within goal_radius [m] of the target, touching nothing: a ShortestPath. What a
+    world's) to within goal_radius [m] of the target, touching nothing that stands still: a
+    ShortestPath. Of movers it knows nothing. What a
     learnt path is measured against.
 
     Found by A* over poses, those in one cell of a quarter step counting as one. Where the

@@ -66,6 +66,12 @@ class Columns:
                 self.refuse(column, f"{dtype} of shape {shape}", "an array of one dimension")
             return shape[0]
 
+    def fields(self, column: str) -> tuple[str, ...]:
+        """The names of the fields that each value of an array has."""
+        with self._open(column) as stream:
+            dtype, _ = self._described(column, stream)
+            return dtype.names or ()
+
     def text(self, column: str) -> str:
         """A text, which stands in an array without dimensions."""
         with self._open(column) as stream:

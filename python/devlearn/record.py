@@ -30,17 +30,22 @@ FORMAT_VERSION = 1
 # One value a step, and one value a pose: a round of n steps has n + 1. Name and dtype of each.
 STEP_COLUMNS = {name: np.dtype(dtype) for name, (dtype, _) in _core.step_columns.items()}
 POSE_COLUMNS = {name: np.dtype(dtype) for name, (dtype, _) in _core.pose_columns.items()}
-_ROUND_FIELDS = {"round": np.int32, "steps": np.int64, "arrived": np.bool_}
+_ROUND_FIELDS = {"round": np.int32, "steps": np.int64, "arrived": np.bool_, "began": np.int64}
 _ROUNDS_DTYPE = np.dtype(list(_ROUND_FIELDS.items()))
+# Files of builds that did not tell when a round began have none of the last field.
+_EARLIER_ROUNDS_DTYPE = np.dtype(list(_ROUND_FIELDS.items())[:-1])
 
 
 def _table() -> str:
     columns = {**_core.step_columns, **_core.pose_columns}
-    columns["rounds"] = ("struct", "one entry a round: round, steps, arrived")
+    columns["rounds"] = ("struct", "one entry a round: round, steps, arrived, began")
     columns["echoes"] = ("float64", "after each step: (steps, sonars) [m], or None")
     rule = f"{'=' * 19}  {'=' * 7}  {'=' * 51}"
     rows = [f"``{name}``".ljust(21) + f"{d:9}{doc}" for name, (d, doc) in columns.items()]
     return "\n    ".join([rule, "column               dtype    meaning", rule, *rows, rule])
+
+
+_Earlier = tuple[_core.World, int]  # and how many steps the trial had made in it and before
 
 
 class Record:  # noqa: D101 - made of the columns
@@ -50,10 +55,12 @@ class Record:  # noqa: D101 - made of the columns
 
     A round of n steps has n + 1 poses, from where it began to where it ended.
     A run with ``rounds_only`` leaves the step and pose columns empty; ``rounds`` tells the steps.
+    ``began`` is how many steps the trial had made before the entry; -1: the file does not say.
 
     ``provenance`` tells where it came from: version, commit, Box2D's version, world and its hash,
     configuration, seed and agent; ``evaluation`` and ``situations`` by name, where they are one's
-    own.
+    own; where the trial's world was changed, ``earlier_worlds``, each with ``steps``, the number
+    made by then.
     """
 
     round: npt.NDArray[np.int32]
@@ -79,7 +86,7 @@ class Record:  # noqa: D101 - made of the columns
     heading: npt.NDArray[np.float64]
     rounds: npt.NDArray[np.void]
     echoes: npt.NDArray[np.float64] | None
-    _origin: tuple[_core.World, _core.TrialConfig, int, type, Mapping[str, str]]
+    _origin: tuple[_core.World, _core.TrialConfig, int, type, Mapping[str, str], list[_Earlier]]
 
     def __init__(
         self, columns: Mapping[str, npt.NDArray[Any]], provenance: Mapping[str, Any]
@@ -94,7 +101,8 @@ class Record:  # noqa: D101 - made of the columns
         for name in (*STEP_COLUMNS, *POSE_COLUMNS):
             setattr(self, name, columns[name])
         self.rounds = np.empty(len(columns["rounds"]), _ROUNDS_DTYPE)  # without padding
-        for field in _ROUND_FIELDS:
+        self.rounds["began"] = -1  # not known, unless they say
+        for field in columns["rounds"].dtype.names:
             self.rounds[field] = columns["rounds"][field]
         self.echoes = columns.get("echoes")
 
@@ -107,18 +115,22 @@ class Record:  # noqa: D101 - made of the columns
         seed: int,
         agent: object,
         own: Mapping[str, str],
+        earlier: list[_Earlier],
     ) -> Record:
         record = cls.__new__(cls)
         record._take(columns)  # which fit, as the trial made them
-        record._origin = world, config, seed, type(agent), own
+        record._origin = world, config, seed, type(agent), own, earlier
         return record
 
     @cached_property
     def provenance(self) -> dict[str, Any]:
         """Where it came from, as plain values."""
         # When it is asked for: of many a phase it never is.
-        world, config, seed, agent, own = self._origin
-        return _provenance(world, config, seed, agent) | dict(own)
+        world, config, seed, agent, own, earlier = self._origin
+        told = _provenance(world, config, seed, agent) | dict(own)
+        if earlier:
+            told["earlier_worlds"] = [_world(was) | {"steps": steps} for was, steps in earlier]
+        return told
 
     @classmethod
     def concatenate(cls, records: Sequence[Record]) -> Record:
@@ -127,13 +139,17 @@ class Record:  # noqa: D101 - made of the columns
         Where one goes on with the round and from the pose that the one before ended with, that
         round becomes one, as if it had never been stopped.
 
-        Raises InvalidValue for no records, or where only some hold echoes.
+        Raises InvalidValue for no records, where only some hold echoes, or for records of different
+        worlds.
         """
         if not records:
             raise InvalidValue("records", "none", "at least one")
         echoes = [record.echoes for record in records if record.echoes is not None]
         if 0 < len(echoes) < len(records):
             raise InvalidValue("records", "echoes in some only", "echoes in all or in none")
+        worlds = {record.provenance.get("world", {}).get("hash") for record in records}
+        if len(worlds) > 1:
+            raise InvalidValue("records", f"of {len(worlds)} worlds", "of one world")
         columns = {n: np.concatenate([getattr(r, n) for r in records]) for n in STEP_COLUMNS}
         if echoes:
             columns["echoes"] = np.concatenate(echoes)
@@ -245,6 +261,19 @@ class Record:  # noqa: D101 - made of the columns
         poses = slice(steps.start + self._entry(i), steps.stop + self._entry(i) + 1)
         return np.column_stack([self.x[poses], self.y[poses], self.heading[poses]])
 
+    def times(self, i: int = 0) -> npt.NDArray[np.float64]:
+        """When the poses of ``path(i)`` were, in the world's time [s]: (steps + 1,).
+
+        Raises InvalidValue for a record of rounds only, or where the file does not say.
+        """
+        steps = self.steps_of(i)
+        began = int(self.rounds["began"][i])
+        if began < 0:
+            raise InvalidValue(
+                "record.rounds.began", began, "a number of steps, which is not known"
+            )
+        return (began + np.arange(steps.stop - steps.start + 1)) * self.config.robot.sample_time
+
     def part(self, entries: slice) -> Record:
         """The record of some entries of ``rounds`` alone, such as ``slice(2, None)``.
 
@@ -334,7 +363,8 @@ class Record:  # noqa: D101 - made of the columns
                 name, "version", version, f"at most {FORMAT_VERSION}; a newer devlearn wrote it"
             )
         # How long each column is follows from the rounds; a record of rounds only has none.
-        rounds = found.array("rounds", _ROUNDS_DTYPE, (None,))
+        told = "began" in found.fields("rounds")
+        rounds = found.array("rounds", _ROUNDS_DTYPE if told else _EARLIER_ROUNDS_DTYPE, (None,))
         steps, poses = sum(rounds["steps"].tolist()), len(rounds)
         if len(rounds) > 0 and found.length("x") == 0:
             steps, poses = 0, 0
@@ -367,6 +397,7 @@ class Record:  # noqa: D101 - made of the columns
             provenance |= {k: entries[k] for k in ("devlearn", "commit", "box2d", "agent")}
             own = {k: entries.get(f"own.{k}") for k in ("evaluation", "situations")}
             provenance |= {k: name for k, name in own.items() if name is not None}
+            provenance |= _earlier_in(entries)
             if "own.sef_table" in header:
                 provenance["evaluation"] = "table"
         return cls(columns, provenance)
@@ -437,17 +468,32 @@ def provenance_of(
 def _provenance(
     world: _core.World, config: _core.TrialConfig, seed: int, agent: type
 ) -> dict[str, Any]:
-    text = world.to_json()
-    digest = hashlib.sha256(text.encode()).hexdigest()  # world.hash, without the text made twice
     return {
         "devlearn": _core.__version__,
         "commit": _core.commit,
         "box2d": _core.box2d_version,
-        "world": {"name": world.name, "hash": digest, "json": text},
+        "world": _world(world),
         "config": config.to_dict(),
         "seed": seed,
         "agent": f"{agent.__module__}.{agent.__qualname__}",
     }
+
+
+def _world(world: _core.World) -> dict[str, Any]:
+    text = world.to_json()
+    digest = hashlib.sha256(text.encode()).hexdigest()  # world.hash, without the text made twice
+    return {"name": world.name, "hash": digest, "json": text}
+
+
+def _earlier_in(entries: Mapping[str, str]) -> dict[str, Any]:
+    """What a snapshot's entries tell of earlier worlds."""
+    names = [f"earlier_world.{i}" for i in range(len(entries))]
+    worlds = [
+        _world(_core.World.from_json(entries[name])) | {"steps": int(entries[f"{name}.steps"])}
+        for name in names
+        if name in entries
+    ]
+    return {"earlier_worlds": worlds} if worlds else {}
 
 
 @contextmanager
@@ -508,7 +554,8 @@ def _check(columns: Mapping[str, npt.NDArray[Any]]) -> None:
             raise InvalidValue(name, f"a value of {type(columns[name]).__name__}", "an array")
     rounds = columns["rounds"]
     for field, kind in _ROUND_FIELDS.items():
-        if rounds.dtype.fields is None or rounds.dtype.fields.get(field, (None,))[0] != kind:
+        untold = field == "began" and field not in (rounds.dtype.names or ())
+        if not untold and (rounds.dtype.fields or {}).get(field, (None,))[0] != kind:
             raise InvalidValue("rounds", rounds.dtype, f"fields {', '.join(_ROUND_FIELDS)}")
     steps = len(columns["situation"])
     rounds_only = _holds_rounds_only(rounds, columns["x"])

@@ -51,7 +51,7 @@ def test_columns_have_their_types_and_lengths(record):
     for name in POSE_COLUMNS:
         assert getattr(record, name).dtype == np.float64
         assert getattr(record, name).shape == (steps + rounds,)
-    assert record.rounds.dtype.names == ("round", "steps", "arrived")
+    assert record.rounds.dtype.names == ("round", "steps", "arrived", "began")
     assert record.echoes.shape == (steps, 5)
     for column in columns_of(record).values():
         assert column.flags.c_contiguous

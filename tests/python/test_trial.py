@@ -42,7 +42,7 @@ def lines_of(record):
     names = ("sef", "smf", "smf_used", "goal_distance", "clearance")
     numbers = np.column_stack([getattr(record, name) for name in names]).tolist()
     lines = []
-    for i, (number, steps, arrived) in enumerate(record.rounds.tolist()):
+    for i, (number, steps, arrived, _) in enumerate(record.rounds.tolist()):
         path = record.path(i).tolist()
         pose = " ".join(f"{value:.17g}" for value in path[0])
         lines.append(f"round {number} {steps} {int(arrived)} {pose}")
@@ -334,7 +334,7 @@ def test_free_rounds_are_numbered_1_and_2_and_path_learning_goes_on_from_3(histo
 
 
 def test_rounds_begin_at_the_start_and_those_of_path_learning_end_where_they_arrive(history):
-    for i, (_, steps, arrived) in enumerate(history.rounds.tolist()):
+    for i, (_, steps, arrived, _) in enumerate(history.rounds.tolist()):
         path, reached = history.path(i), history.arrived[history.steps_of(i)]
         assert path.shape == (steps + 1, 3)
         assert tuple(path[0]) == history.world.start
@@ -363,7 +363,7 @@ def test_a_round_that_begins_at_the_target_has_no_step_and_has_arrived():
     assert trial.arrived
     record = trial.path_learning(4)
     assert len(record) == 0
-    assert record.rounds.tolist() == [(n, 0, True) for n in (1, 2, 3, 4)]
+    assert record.rounds.tolist() == [(n, 0, True, 0) for n in (1, 2, 3, 4)]
     assert [record.path(i).tolist() for i in range(4)] == [[[2, 2, 0]]] * 4
     assert len(trial.free_learning(10)) == 10  # where reaching the target ends nothing
 

@@ -51,6 +51,7 @@ def things():
             devlearn.LearnerConfig(), devlearn.TrialConfig(), devlearn.BatchConfig(),
             devlearn.NoiseDef(),
             trial.learner.situation(760),
+            MOVER, MOVER.course, devlearn.MoverWalk(1, (1, 1), (2, 2), 3),
             devlearn.AdaptiveConfig(), adaptive.learner.last_choice,
             adaptive.learner.situation(760), adaptive.learner.last_choice.recollections[0],
             trial.learner.memory_use, keeper.observation, keeper.outcome, trial.run(3),
@@ -59,6 +60,7 @@ def things():
     }  # fmt: skip
 
 
+MOVER = devlearn.Mover(devlearn.Circle((0, 0), 1), devlearn.MoverPath([(1, 1), (2, 1)], 0.1))
 THINGS = things()
 CORNERS = [(1, 1), (2, 1), (2, 2)]
 

@@ -13,11 +13,12 @@
 namespace devlearn {
 namespace {
 
-// No part of a drive moves further at once, less than the slop [m].
+// Nothing comes nearer at once, less than the slop [m].
 constexpr double kLongestSubstep = 0.0034;
 constexpr int kLeastSubsteps = 15;
 
-// Contacts only ever slow the body, so it stays within a step, and a little [m], of its beginning.
+// What stands still only ever slows the body, so it stays within a step, and a little [m], of its
+// beginning; what moves takes it along no further than it goes itself.
 constexpr double kReachMargin = 0.05;
 // No more of an edge takes part than lies so far beyond what can be reached [m], so that floats
 // lose nothing to faraway corners.
@@ -61,17 +62,44 @@ bool passes(b2Vec2 p, b2Vec2 q, const b2EdgeShape& edge) {
 }  // namespace
 
 Scene::Scene(const World& world, const RobotDef& robot, const Pose& pose, double heading,
-             double speed) {
+             double speed, const TimeSpan& step) {
   const Point from{pose.x, pose.y};
-  const double length = speed * robot.sample_time, reach = robot.radius + length + kReachMargin;
+  double way = speed * robot.sample_time;
+  if (world.moves()) {
+    way += add_movers(world.movers(), from, robot.radius + way + kReachMargin, step);
+  }
+  furthest = way + kReachMargin;
+  const double reach = robot.radius + way + kReachMargin;
   for (const std::uint32_t surface : world.surfaces().around(from, reach)) {
     world.surfaces().apply(surface, [&](const auto& shape) { add(shape, from, reach); });
   }
   body.m_radius = static_cast<float>(robot.radius);
   const Direction ahead = direction(heading);
   velocity = vector({speed * ahead.x, speed * ahead.y});
-  substeps = std::max(kLeastSubsteps, static_cast<int>(std::ceil(length / kLongestSubstep)));
+  substeps = std::max(kLeastSubsteps, static_cast<int>(std::ceil(way / kLongestSubstep)));
   substep = static_cast<float>(robot.sample_time / substeps);
+}
+
+// The movers that a body can touch, and those among which these may push it. Returns how far the
+// fastest of them goes [m].
+double Scene::add_movers(const Movers& all, Point from, double reach, const TimeSpan& step) {
+  const auto fastest = [&](const std::vector<std::size_t>& some) {
+    double furthest_way = 0.0;
+    for (const std::size_t i : some) {
+      furthest_way =
+          std::max(furthest_way, distance(all.place(i, step.begin), all.place(i, step.end())));
+    }
+    return furthest_way;
+  };
+  const std::vector<std::size_t> touchable = all.around(from, reach, step);
+  if (touchable.empty()) return 0.0;
+  const std::vector<std::size_t> near = all.around(from, reach + fastest(touchable), step);
+  for (const std::size_t i : near) {
+    const Point begin = all.place(i, step.begin), way = all.place(i, step.end()) - begin;
+    movers.push_back({moving_shape(all.shape(i)), vector(begin - from),
+                      vector(along({}, way, 1.0 / step.duration))});
+  }
+  return fastest(near);
 }
 
 void Scene::add(const Edge& edge, Point from, double reach) {
@@ -123,6 +151,14 @@ Drive drive_in_box2d(const Scene& scene, int iterations) {
   smooth.density = Scene::kDensity;
   add(body, scene.body);
 
+  for (const Scene::Moving& mover : scene.movers) {
+    b2BodyDef moving_def;
+    moving_def.type = b2_kinematicBody;
+    moving_def.position = mover.place;
+    moving_def.linearVelocity = mover.velocity;
+    add(physics.CreateBody(&moving_def), as_shape(mover.shape));
+  }
+
   Drive drive;
   for (int i = 0; i < scene.substeps; ++i) {
     const b2Vec2 place = body->GetPosition(), velocity = body->GetLinearVelocity();
@@ -132,6 +168,10 @@ Drive drive_in_box2d(const Scene& scene, int iterations) {
     }
     for (const b2EdgeShape& edge : scene.edges) {
       drive.passed = drive.passed || passes(place, body->GetPosition(), edge);
+    }
+    if (!scene.movers.empty()) {
+      drive.trail.push_back({body->GetPosition().x, body->GetPosition().y});
+      continue;
     }
     // A step that changes nothing is followed by others like it.
     if (body->GetPosition() == place && body->GetLinearVelocity() == velocity) break;

@@ -4,10 +4,12 @@
 
 #include <vector>
 
+#include "body/moving_shape.hpp"
 #include "devlearn/robot.hpp"
 #include "devlearn/situation.hpp"
 #include "devlearn/world.hpp"
 #include "world/geometry.hpp"
+#include "world/movers.hpp"
 
 // How a drive comes out where there is something to touch, as Box2D has it.
 namespace devlearn {
@@ -20,19 +22,29 @@ constexpr int kPositionIterations = 3;
 /// A drive in Box2D's terms, its origin where the body begins: the outcome depends on nothing that
 /// happened before.
 struct Scene {
-  /// Of all surfaces that a body at a pose can touch within a step along a heading [m/s].
-  Scene(const World& world, const RobotDef& robot, const Pose& pose, double heading, double speed);
+  /// Of all that a body at a pose can touch within a step along a heading [m/s].
+  Scene(const World& world, const RobotDef& robot, const Pose& pose, double heading, double speed,
+        const TimeSpan& step);
+
+  /// What goes straight and evenly all through the step, and is not held up by anything.
+  struct Moving {
+    MovingShape shape;
+    b2Vec2 place, velocity;
+  };
 
   std::vector<b2EdgeShape> edges;
   std::vector<b2CircleShape> circles;
+  std::vector<Moving> movers;
   b2CircleShape body;
   b2Vec2 velocity;
-  int substeps;   // so many that none leads deeper than Box2D's slop
-  float substep;  // [s]
+  int substeps;     // so many that none leads deeper than Box2D's slop
+  float substep;    // [s]
+  double furthest;  // how far from where it began the body can come among these [m]
 
   static constexpr float kDensity = 1.0f;  // of the body; no outcome depends on it
 
  private:
+  double add_movers(const Movers& all, Point from, double reach, const TimeSpan& step);
   void add(const Edge& edge, Point from, double reach);
   void add(const Circle& circle, Point from, double reach);
 };
@@ -41,6 +53,8 @@ struct Drive {
   Point moved;           ///< from where it began
   bool touched = false;  ///< anything, at any time
   bool passed = false;   ///< its centre, through an edge
+  /// Where it was after each substep, from where it began: of a scene in which something moves.
+  std::vector<Point> trail = {};
 };
 
 /// To be called before any drive, from any thread. Box2D keeps a table of kinds of contacts in a

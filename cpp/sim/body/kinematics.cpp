@@ -57,10 +57,10 @@ bool way_is_free(const World& world, const RobotDef& robot, const Pose& from, co
   const double room = free_room(robot);
   const double in_sight = world.surfaces().distance_at_least(end);
   if (std::min(in_sight, world.wall_distance(end)) > room + length + kRounding) return true;
-  const double at_end = world.clearance(end, true);
+  const double at_end = world.surfaces().room(end);
   if (at_end < room - kRounding) return false;
   if (at_end > room + length + kRounding) return true;
-  const double at_start = world.clearance(start, true);
+  const double at_start = world.surfaces().room(start);
   if (at_start < room - kRounding) return false;
   if (at_start + at_end - length > 2.0 * (room + kRounding)) return true;
   return world.surfaces().keep_clear_of(start, end, room);

@@ -24,12 +24,12 @@ double heading_after(const RobotDef& robot, const Pose& pose, int motion);
 Pose driven(const Pose& pose, double heading, double length) noexcept;
 
 /// Whether the body sweeps from a pose straight to another, `length` away, without coming so near
-/// to anything that Box2D had a say.
+/// to anything that stands still that Box2D had a say.
 bool way_is_free(const World& world, const RobotDef& robot, const Pose& from, const Pose& to,
                  double length) noexcept;
 
-/// The next pose where the way to it is free; nothing where it is not. Throws InvalidValue for a
-/// motion outside M.
+/// The next pose where the way to it is free of what stands still; nothing where it is not. Throws
+/// InvalidValue for a motion outside M.
 std::optional<Pose> free_step(const World& world, const RobotDef& robot, const Pose& pose,
                               int motion);
 

@@ -14,6 +14,7 @@
 #include "devlearn/error.hpp"
 #include "devlearn/math.hpp"
 #include "world/geometry.hpp"
+#include "world/surfaces.hpp"
 
 namespace devlearn {
 namespace {
@@ -236,7 +237,8 @@ class Flood {
   // Below 0 beyond the walls, where the last cells reach.
   double room_at(Point p) const noexcept {
     const Point low = world_.def().origin, high = world_.def().far_corner();
-    return std::min({world_.clearance(p), p.x - low.x, p.y - low.y, high.x - p.x, high.y - p.y});
+    return std::min(
+        {world_.surfaces().distance(p), p.x - low.x, p.y - low.y, high.x - p.x, high.y - p.y});
   }
 
   const World& world_;

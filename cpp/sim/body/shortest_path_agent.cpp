@@ -31,13 +31,14 @@ Robot robot_in(const AgentState& state, const std::string& source) {
   const safetensors::Contents contents{state.texts, state.arrays};
   const EntryReader entries(contents, source);
   each_entry(def, kRobot, entries);
-  return made_of(source, [&] { return Robot(World::parse(state.text("world"), source), def); });
+  return made_of(source,
+                 [&] { return Robot(World::parse(state.text("world"), source).standing(), def); });
 }
 
 }  // namespace
 
 ShortestPathAgent::ShortestPathAgent(const Robot& robot, double goal_radius)
-    : robot_(robot.world(), robot.def()), goal_radius_(goal_radius) {
+    : robot_(robot.world().standing(), robot.def()), goal_radius_(goal_radius) {
   require_plannable(robot.def(), goal_radius);
 }
 

@@ -6,6 +6,7 @@
 
 #include "body/box2d_vector.hpp"
 #include "devlearn/math.hpp"
+#include "world/movers.hpp"
 #include "world/surfaces.hpp"
 
 namespace devlearn {
@@ -14,6 +15,9 @@ namespace {
 class NearestHit : public b2RayCastCallback {
  public:
   float ReportFixture(b2Fixture*, const b2Vec2&, const b2Vec2& outwards, float at) override {
+    return meet(outwards, at);
+  }
+  float meet(const b2Vec2& outwards, float at) {
     hit = true;
     normal = outwards;
     return fraction = at;
@@ -75,31 +79,59 @@ void Sonars::build() const {
     shape.m_radius = static_cast<float>(circle.radius);
     ground->CreateFixture(&shape, 0.0f);
   }
+  for (std::size_t i = 0; i < world_->movers().size(); ++i) {
+    moving_.push_back(moving_shape(world_->movers().shape(i)));
+  }
   standing_ = std::move(standing);
 }
 
-void Sonars::listen(const Pose& pose, const double* aside, double* echoes) const {
+void Sonars::listen(const Pose& pose, const double* aside, double* echoes, double time) const {
   std::call_once(built_, [this] { build(); });
   const Point at = Point{pose.x, pose.y} - world_->def().origin;
+  const std::vector<Near> movers = movers_near(pose, time);
   for (std::size_t i = 0; i < angles_.size(); ++i) {
     const double error = aside == nullptr ? 0.0 : aside[i];
-    echoes[i] = nearest_echo(at, pose.heading + angles_[i] + error);
+    echoes[i] = nearest_echo(at, pose.heading + angles_[i] + error, movers);
   }
 }
 
-double Sonars::nearest_echo(Point at, double heading) const {
+std::vector<Sonars::Near> Sonars::movers_near(const Pose& pose, double time) const {
+  std::vector<Near> near;
+  if (!world_->moves()) return near;
+  const Movers& movers = world_->movers();
+  const Point centre{pose.x, pose.y};
+  for (const std::size_t i : movers.around(centre, radius_ + range_, {time, 0.0})) {
+    const Point place = movers.place(i, time) - world_->def().origin;
+    near.push_back({&as_shape(moving_[i]), b2Transform(vector(place), b2Rot(0.0f)),
+                    movers.distance(i, centre, time) <= 0.0});
+  }
+  return near;
+}
+
+double Sonars::nearest_echo(Point at, double heading, const std::vector<Near>& movers) const {
   double nearest = range_;
-  for (const double ray : cone_) nearest = std::min(nearest, echo(at, heading + ray));
+  for (const double ray : cone_) nearest = std::min(nearest, echo(at, heading + ray, movers));
   return nearest;
 }
 
 // Of one ray; the range where none is heard.
-double Sonars::echo(Point at, double heading) const {
-  // From the centre: the body holds nothing but slop, and no ray begins inside a shape.
+double Sonars::echo(Point at, double heading, const std::vector<Near>& movers) const {
+  // From the centre: the body holds nothing that stands still but slop, and no ray begins inside.
   const double reach = radius_ + range_;
   const Direction ray = direction(heading);
+  const b2Vec2 from = vector(at), to = vector(along(at, {ray.x, ray.y}, reach));
   NearestHit hit;
-  standing_->RayCast(&hit, vector(at), vector(along(at, {ray.x, ray.y}, reach)));
+  standing_->RayCast(&hit, from, to);
+  for (const Near& mover : movers) {
+    if (mover.holds_robot) {
+      hit.meet(-vector({ray.x, ray.y}), 0.0f);
+      continue;
+    }
+    b2RayCastOutput met;
+    if (mover.shape->RayCast(&met, {from, to, hit.fraction}, mover.place, 0)) {
+      hit.meet(met.normal, met.fraction);
+    }
+  }
   if (!hit.hit) return range_;
   const double echo = std::clamp(static_cast<double>(hit.fraction) * reach - radius_, 0.0, range_);
   const double cosine =

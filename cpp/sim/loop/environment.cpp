@@ -29,6 +29,11 @@ SituationGrid grid_over(const World& world, const TrialConfig& config) {
                        config.noise.of_odometry() ? Outside::kClamp : Outside::kRefuse);
 }
 
+std::string text_of_arena(const WorldDef& def) {
+  return to_text(def.width) + " m x " + to_text(def.height) + " m from (" + to_text(def.origin.x) +
+         ", " + to_text(def.origin.y) + ")";
+}
+
 // SEFs differ by what a double can hold.
 constexpr double kMostSef = 1e300;
 
@@ -55,11 +60,11 @@ Environment::Environment(const World& world, const TrialConfig& config, std::uin
 
 Environment::Environment(std::shared_ptr<const Fixed> fixed, std::uint64_t seed)
     : fixed_(std::move(fixed)),
-      state_{{{}, {}, Random(seed, "noise")}, {}, -1, false, {}, Random(seed, "noise")},
+      state_{{{}, {}, Random(seed, "noise"), 0}, {}, -1, false, {}, Random(seed, "noise")},
       allowed_(std::make_unique<bool[]>(static_cast<std::size_t>(config().motion_count()))) {
   const Pose& start = world().def().start;
-  robot().require_place(start, "start");
-  state_ = sensed({start, start, state_.noise});
+  robot().require_start();
+  state_ = sensed({start, start, state_.noise, 0});
 }
 
 Environment::~Environment() = default;
@@ -67,6 +72,18 @@ Environment::Environment(Environment&&) noexcept = default;
 Environment& Environment::operator=(Environment&&) noexcept = default;
 
 Environment Environment::twin(std::uint64_t seed) const { return Environment(fixed_, seed); }
+
+Environment Environment::in(const World& other) const {
+  const WorldDef &was = world().def(), &is = other.def();
+  if (is.width != was.width || is.height != was.height || !(is.origin == was.origin)) {
+    throw InvalidValue("world.arena", text_of_arena(is),
+                       text_of_arena(was) + ", the arena as it was");
+  }
+  Environment there(other, config(), 0, parts());
+  const Pose& start = is.start;
+  there.enter(there.sensed({start, start, state_.noise, state_.place.steps}));
+  return there;
+}
 
 Environment::Fixed::Fixed(const World& world, const TrialConfig& given, TrialParts own)
     : config((given.validate(), given)),
@@ -95,7 +112,7 @@ void Environment::Fixed::require_parts() const {
 
 // What an agent chooses by.
 const Observation& Environment::look() {
-  const bool any_refused = robot().allowed(pose(), allowed_.get());
+  const bool any_refused = robot().allowed(pose(), allowed_.get(), time());
   state_.here.allowed = {};
   if (any_refused) {
     state_.here.allowed = {allowed_.get(), static_cast<std::size_t>(state_.here.motion_count)};
@@ -109,7 +126,7 @@ Environment::Transition Environment::after(int motion) const {
   const Robot::Move made = moved(motion, noise);
   // world -> sense -> situation, and its SEF (Eq. 6)
   const Pose estimate = reckoned(made.pose, noise);
-  State next = sensed({made.pose, estimate, noise});
+  State next = sensed({made.pose, estimate, noise, state_.place.steps + 1});
   // -> evaluation (Eq. 8)
   const double smf = next.here.sef - state_.here.sef;
   const Outcome outcome = outcome_of(next, smf, made.collided);
@@ -117,7 +134,8 @@ Environment::Transition Environment::after(int motion) const {
 }
 
 Environment::State Environment::standing(const Pose& pose) const {
-  return standing({pose, pose, state_.noise});
+  robot().require_free(pose, time());
+  return standing({pose, pose, state_.noise, state_.place.steps});
 }
 
 Environment::State Environment::standing(const Place& place) const {
@@ -133,19 +151,19 @@ Robot::Move Environment::moved(int motion, Random& noise) const {
   if (def.slip > 0.0 && noise.uniform() < def.slip) {
     motion = static_cast<int>(noise.index(static_cast<std::uint32_t>(config().motion_count())));
   }
-  if (!def.of_motion()) return robot().step(pose(), motion);
+  if (!def.of_motion()) return robot().step(pose(), motion, time());
   const double turn = body.steering_angles[static_cast<std::size_t>(motion)];
   const double off = def.turn * noise.normal();
   const double faster = def.drive * noise.normal() / body.sample_time;
   return robot().drive(pose(), turn + off,
-                       std::clamp(body.speed + faster, 0.0, 1.0 / body.sample_time));
+                       std::clamp(body.speed + faster, 0.0, 1.0 / body.sample_time), time());
 }
 
 // The pose that odometry makes of the way to another, seen from where it believed the robot to be.
 Pose Environment::reckoned(const Pose& to, Random& noise) const {
   const NoiseDef& def = config().noise;
   if (!def.of_odometry()) return to;
-  const auto& [from, believed, stream] = state_.place;
+  const auto& [from, believed, stream, steps] = state_.place;
   const double turned = def.odometry_turn * noise.normal();
   const double driven = 1.0 + def.odometry_drive * noise.normal();
   const double heading = wrapped_heading(believed.heading + (to.heading - from.heading) + turned);
@@ -161,15 +179,15 @@ Pose Environment::reckoned(const Pose& to, Random& noise) const {
 Environment::State Environment::sensed(const Place& place) const {
   State state{place, {}, -1, false, {}, place.noise};
   const bool by_sonar = config().clearance_source == ClearanceSource::kSonar;
-  if (by_sonar || config().noise.of_sonars()) state.echoes = heard(place.pose, state.noise);
-  const auto& [pose, estimate, stream] = place;
+  if (by_sonar || config().noise.of_sonars()) state.echoes = heard(place, state.noise);
+  const auto& [pose, estimate, stream, steps] = place;
   Observation& here = state.here;
   here.pose = estimate;
   here.goal_distance = distance_to_target(estimate);
   // d_o of Eq. 6
   here.clearance =
       by_sonar ? *std::min_element(state.echoes.begin(), state.echoes.end()) + config().robot.radius
-               : world().clearance({pose.x, pose.y}, config().walls_count);
+               : world().clearance({pose.x, pose.y}, config().walls_count, time_of(place));
   const Senses senses{estimate, here.goal_distance, here.clearance};
   here.situation = state.true_situation = situation(senses);
   here.sef = sef(senses, here.situation);
@@ -187,13 +205,14 @@ Environment::State Environment::sensed(const Place& place) const {
 }
 
 // Echoes as the sonars tell them.
-std::vector<double> Environment::heard(const Pose& pose, Random& noise) const {
+std::vector<double> Environment::heard(const Place& place, Random& noise) const {
   const NoiseDef& def = config().noise;
-  if (!def.of_sonars()) return robot().sonar(pose);
+  const double time = time_of(place);
+  if (!def.of_sonars()) return robot().sonar(place.pose, time);
   const double range = config().robot.sonar_range;
   std::vector<double> echoes(static_cast<std::size_t>(config().robot.sonar_count)), aside(echoes);
   for (double& angle : aside) angle = def.bearing * noise.normal();
-  robot().sonar(pose, aside.data(), echoes.data());
+  robot().sonar(place.pose, aside.data(), echoes.data(), time);
   for (double& echo : echoes) {
     const double off = def.echo * noise.normal();
     const bool lost = noise.uniform() < def.dropout;
@@ -203,7 +222,7 @@ std::vector<double> Environment::heard(const Pose& pose, Random& noise) const {
 }
 
 void Environment::echoes(double* echoes) const {
-  if (state_.echoes.empty()) return robot().sonar(pose(), echoes);
+  if (state_.echoes.empty()) return robot().sonar(pose(), echoes, time());
   std::copy(state_.echoes.begin(), state_.echoes.end(), echoes);
 }
 

@@ -28,14 +28,14 @@ constexpr auto kPoseColumns = Record::pose_columns();
 // Everywhere there is room before the first column grows, so that they stay of one length where
 // memory ends.
 
-void Record::begin_round(std::int32_t number, const Pose& pose) {
+void Record::begin_round(std::int32_t number, const Pose& pose, std::int64_t began) {
   if (!rounds.empty() && rounds.back().round == number &&
       Pose{x.back(), y.back(), heading.back()} == pose) {
     return;
   }
   make_room(1, rounds);
   detail::each_column(kPoseColumns, [&](auto& column) { make_room(1, this->*column.values); });
-  rounds.push_back({number, 0, false});
+  rounds.push_back({number, 0, false, began});
   detail::each_column(kPoseColumns, [&](auto& column) { column.append(*this, pose); });
 }
 
@@ -67,6 +67,7 @@ void Record::validate() const {
     require_count(name + ".round", rounds[i].round, 1, std::numeric_limits<std::int32_t>::max());
     const auto left = static_cast<long long>(steps() - step);
     require_count(name + ".steps", rounds[i].steps, 0, brief ? kMany : left);
+    require_count(name + ".began", rounds[i].began, -1, kMany);
     if (!brief) step += static_cast<std::size_t>(rounds[i].steps);
   }
   if (step != steps()) {

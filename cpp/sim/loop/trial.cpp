@@ -159,12 +159,22 @@ void Trial::place(const Pose& pose) {
   put(pose);
 }
 
-void Trial::resume(const Environment::Place& place, std::int32_t round, bool round_open) {
+void Trial::change_world(const World& world) {
+  const OneCall call(under_way_);
+  Environment changed = environment_.in(world);
+  close_round(false);
+  earlier_worlds_.push_back({environment_.world(), environment_.state().place.steps});
+  environment_ = std::move(changed);
+}
+
+void Trial::resume(const Environment::Place& place, std::int32_t round, bool round_open,
+                   std::vector<EarlierWorld> earlier_worlds) {
   const OneCall call(under_way_);
   require_count("round", round, 0, kLastRound);
   environment_.enter(environment_.standing(place));
   round_ = round;
   round_open_ = round_open;
+  earlier_worlds_ = std::move(earlier_worlds);
 }
 
 // A new round, from a pose.
@@ -248,10 +258,10 @@ void Trial::open(Record& record, const RunOptions& options) const {
 bool Trial::run_on(Record& record, std::int64_t steps, bool until_arrival,
                    const RunOptions& options) {
   if (!options.rounds_only) {
-    record.begin_round(round_, pose());
+    record.begin_round(round_, pose(), environment_.state().place.steps);
     if (!until_arrival) record.reserve(static_cast<std::size_t>(std::min(steps, kStepsAtOnce)));
   } else if (record.rounds.empty() || record.rounds.back().round != round_) {
-    record.rounds.push_back({round_, 0, false});
+    record.rounds.push_back({round_, 0, false, environment_.state().place.steps});
   }
   if (options.tally != nullptr) options.tally->begin_round(round_, pose());
   for (std::int64_t i = 0;; ++i) {

@@ -31,6 +31,11 @@ constexpr const char* kNone = "none";
 
 constexpr const char* kConfig = "config.";
 
+// Steps that the trial has made, and the worlds that it was in before.
+constexpr const char* kSteps = "trial_steps";
+constexpr std::int64_t kMostSteps = std::int64_t{1} << 62;
+std::string earlier_world(std::size_t i) { return "earlier_world." + std::to_string(i); }
+
 // Where there is noise: the estimated pose, and the state of its stream.
 constexpr const char* kEstimate = "estimate";
 constexpr const char* kNoise = "noise";
@@ -92,8 +97,14 @@ class Description {
     entries("trial_seed", trial.seed());
     entries("round", trial.round());
     entries("round_open", trial.round_open());
+    entries(kSteps, trial.environment().state().place.steps);
+    for (std::size_t i = 0; i < trial.earlier_worlds().size(); ++i) {
+      const auto& [world, steps] = trial.earlier_worlds()[i];
+      contents_.metadata[earlier_world(i)] = world.to_json();
+      entries(earlier_world(i) + ".steps", steps);
+    }
     each_entry(trial.config(), kConfig, entries);
-    const auto& [pose, estimate, noise] = trial.environment().state().place;
+    const auto& [pose, estimate, noise, steps] = trial.environment().state().place;
     pose_ = {pose.x, pose.y, pose.heading};
     add("pose", pose_, "F64");
     if (trial.config().noise == NoiseDef{}) return;
@@ -145,6 +156,7 @@ class Description {
       numbers_.push_back(round.round);
       steps_.push_back(round.steps);
       arrived_.push_back(round.arrived);
+      began_.push_back(round.began);
     }
     const auto add_column = [&](const char* name, const auto& column, const char* dtype) {
       add(std::string("record.") + name, column, dtype);
@@ -157,6 +169,7 @@ class Description {
     add_column("rounds.round", numbers_, "I32");
     add_column("rounds.steps", steps_, "I64");
     add_column("rounds.arrived", arrived_, "BOOL");
+    add_column("rounds.began", began_, "I64");
     if (record.sonar_count > 0) {
       add_column("echoes", record.echoes, "F64");
       contents_.arrays["record.echoes"].shape = {record.steps(),
@@ -175,20 +188,39 @@ class Description {
   std::vector<double> pose_, estimate_;
   std::vector<std::uint64_t> noise_;
   std::vector<std::int32_t> numbers_;
-  std::vector<std::int64_t> steps_;
+  std::vector<std::int64_t> steps_, began_;
   std::vector<std::uint8_t> arrived_;
 };
 
 // --- reading -------------------------------------------------------------------------------------
 
-World world_of(const Contents& contents, const std::string& source) {
-  const std::string& text = safetensors::entry(contents, "world", source);
+World world_of(const Contents& contents, const std::string& source,
+               const std::string& entry = "world") {
+  const std::string& text = safetensors::entry(contents, entry, source);
   try {
     return World::parse(text, source);
   } catch (const FileError& error) {
-    const std::string field = error.field().empty() ? "world" : "world." + error.field();
+    const std::string field = error.field().empty() ? entry : entry + "." + error.field();
     throw FileError(source, field, error.value(), error.allowed());
   }
+}
+
+void take_count(const EntryReader& entries, const std::string& entry, std::int64_t& count,
+                const std::string& source) {
+  entries(entry, count);
+  made_of(source, [&] { require_count(entry, count, 0, kMostSteps); });
+}
+
+std::vector<Trial::EarlierWorld> earlier_worlds_of(const Contents& contents,
+                                                   const std::string& source) {
+  std::vector<Trial::EarlierWorld> worlds;
+  const EntryReader entries(contents, source);
+  while (entries.has(earlier_world(worlds.size()))) {
+    const std::string entry = earlier_world(worlds.size());
+    worlds.push_back({world_of(contents, source, entry), 0});
+    take_count(entries, entry + ".steps", worlds.back().steps, source);
+  }
+  return worlds;
 }
 
 // What is in the file of the agent. The arrays stay where they are.
@@ -270,9 +302,13 @@ Pose pose_of(const Contents& contents, const char* name, const std::string& sour
 Environment::Place place_of(const Contents& contents, const TrialConfig& config, std::uint64_t seed,
                             const std::string& source) {
   const Pose pose = pose_of(contents, "pose", source);
-  if (config.noise == NoiseDef{}) return {pose, pose, Random(seed, "noise")};
+  std::int64_t steps = 0;
+  const EntryReader entries(contents, source);
+  // Earlier files do not say; nothing moves in their worlds.
+  if (entries.has(kSteps)) take_count(entries, kSteps, steps, source);
+  if (config.noise == NoiseDef{}) return {pose, pose, Random(seed, "noise"), steps};
   const Random::State noise = random_of(contents, source, kNoise);
-  return {pose, pose_of(contents, kEstimate, source), Random(noise)};
+  return {pose, pose_of(contents, kEstimate, source), Random(noise), steps};
 }
 
 std::string note_of(const Contents& contents) {
@@ -291,11 +327,12 @@ Trial trial_of(const Contents& contents, const LoadOptions& options, const std::
   const TrialConfig config = config_of(contents, source);
   const Environment::Place place = place_of(contents, config, seed, source);
   const World world = world_of(contents, source);
+  const std::vector<Trial::EarlierWorld> earlier = earlier_worlds_of(contents, source);
   TrialParts parts = parts_of(contents, options.parts, source);
   const std::shared_ptr<Agent> agent = agent_of(contents, options, source);
   return made_of(source, [&] {
     Trial trial(world, config, seed, agent, std::move(parts));
-    trial.resume(place, round, round_open);
+    trial.resume(place, round, round_open, earlier);
     return trial;
   });
 }
@@ -333,14 +370,19 @@ std::optional<Record> record_of(const Contents& contents, const std::string& sou
     take("echoes", record.echoes, {steps, static_cast<std::uint64_t>(record.sonar_count)}, "F64");
   }
   std::vector<std::int32_t> numbers;
-  std::vector<std::int64_t> counts;
+  std::vector<std::int64_t> counts, began;
   std::vector<std::uint8_t> arrived;
   take("rounds.round", numbers, {rounds}, "I32");
   take("rounds.steps", counts, {rounds}, "I64");
   take("rounds.arrived", arrived, {rounds}, "BOOL");
+  if (contents.arrays.count("record.rounds.began") > 0) {
+    take("rounds.began", began, {rounds}, "I64");
+  } else {
+    began.assign(rounds, Round{}.began);
+  }
   for (std::size_t i = 0; i < rounds; ++i) {
     made_of(source, [&] { require_count("record.rounds.arrived", arrived[i], 0, 1); });
-    record.rounds.push_back({numbers[i], counts[i], arrived[i] == 1});
+    record.rounds.push_back({numbers[i], counts[i], arrived[i] == 1, began[i]});
   }
   made_of(source, [&] { record.validate(); });
   return record;

@@ -42,6 +42,9 @@ class Surfaces {
     return std::max(0.0, std::min({p.x - low.x, high.x - p.x, p.y - low.y, high.y - p.y}));
   }
 
+  /// Least distance from p to obstacles and walls, 0 in them.
+  double room(Point p) const noexcept { return std::min(distance(p), wall_distance(p)); }
+
   /// Whether obstacles and walls keep more than `room` > 0 from the segment p-q.
   bool keep_clear_of(Point p, Point q, double room) const noexcept;
 

@@ -10,6 +10,7 @@
 #include "devlearn/math.hpp"
 #include "json.hpp"
 #include "world/geometry.hpp"
+#include "world/movers.hpp"
 #include "world/simple_polygon.hpp"
 #include "world/surfaces.hpp"
 
@@ -26,7 +27,11 @@ constexpr double kRounding = 1e-9;
 constexpr std::size_t kMostObstacles = 100'000;
 constexpr std::size_t kMostPoints = 100'000;  // of an outline, a hole or a thin wall
 constexpr std::size_t kMostPointsInAll = 1'000'000;
-constexpr std::size_t kLongestText = 10'000;  // name and description [bytes]
+constexpr std::size_t kMostMovers = 1000;
+constexpr std::size_t kMostPathPoints = 10'000;                // of a mover
+constexpr double kGreatestSpeed = 1.0;                         // of a mover [m/s]
+constexpr double kLeastLegTime = 0.1, kGreatestLegTime = 1e6;  // of a mover's walk [s]
+constexpr std::size_t kLongestText = 10'000;                   // name and description [bytes]
 
 std::string text_of(Point p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ")"; }
 
@@ -261,15 +266,52 @@ void require_place(const World& world, const std::string& quantity, Point p) {
   const Point low = world.def().origin, high = world.def().far_corner();
   require_in(quantity + ".x", p.x, low.x, high.x, "m");
   require_in(quantity + ".y", p.y, low.y, high.y, "m");
-  if (!(world.clearance(p) > 0.0)) {
+  if (!(world.surfaces().distance(p) > 0.0)) {
     throw InvalidValue(quantity, text_of(p) + ", in an obstacle", "a point outside every obstacle");
   }
 }
 
+// Rounds begin there at any time.
 void require_start(const World& world) {
   const Pose& start = world.def().start;
   require_place(world, "start", {start.x, start.y});
   require_finite("start.heading", start.heading);
+  for (std::size_t i = 0; i < world.movers().size(); ++i) {
+    if (world.movers().distance_ever(i, {start.x, start.y}) > 0.0) continue;
+    throw InvalidValue(indexed("movers", i),
+                       "a course that leads over the start, " + text_of({start.x, start.y}),
+                       "one that keeps clear of it, as a round may begin at any time");
+  }
+}
+
+// Where a mover's centre may be; an arena has no hollows, so neither is the way between two points.
+void require_course(const std::string& name, const MoverPath& path, const WorldDef& def) {
+  const Point low = def.origin, high = def.far_corner();
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const std::string quantity = indexed(name + ".path.points", i);
+    require_in(indexed(quantity, 0), path.points[i].x, low.x, high.x, "m");
+    require_in(indexed(quantity, 1), path.points[i].y, low.y, high.y, "m");
+  }
+}
+void require_course(const std::string& name, const MoverWalk& walk, const WorldDef& def) {
+  const Point low = def.origin, high = def.far_corner();
+  for (const auto& [corner, p] : {std::pair{".walk.low", walk.low}, {".walk.high", walk.high}}) {
+    require_in(indexed(name + corner, 0), p.x, low.x, high.x, "m");
+    require_in(indexed(name + corner, 1), p.y, low.y, high.y, "m");
+  }
+}
+
+void require_movers(const WorldDef& def) {
+  if (def.movers.size() > kMostMovers) {
+    throw InvalidValue("movers", std::to_string(def.movers.size()) + " movers",
+                       "at most " + std::to_string(kMostMovers) + " movers");
+  }
+  for (std::size_t i = 0; i < def.movers.size(); ++i) {
+    const std::string name = indexed("movers", i);
+    def.movers[i].validate(name);
+    std::visit([&](const auto& course) { require_course(name, course, def); },
+               def.movers[i].course);
+  }
 }
 
 }  // namespace
@@ -302,6 +344,52 @@ void Polyline::validate(const std::string& name) const {
   }
 }
 
+void MoverPath::validate(const std::string& name) const {
+  const std::string quantity = name + ".points";
+  if (points.size() < 2 || points.size() > kMostPathPoints) {
+    throw InvalidValue(quantity, std::to_string(points.size()) + " points",
+                       "2 to " + std::to_string(kMostPathPoints) + " points");
+  }
+  const std::size_t n = points.size();
+  for (std::size_t i = 0; i < n; ++i) require_point(indexed(quantity, i), points[i]);
+  for (std::size_t i = then == Then::kAround ? 0 : 1; i < n; ++i) {
+    const double gap = distance(points[(i + n - 1) % n], points[i]);
+    if (gap >= kLeastSpacing - kRounding) continue;
+    throw InvalidValue(indexed(quantity, i), to_text(gap) + " m from the point before",
+                       "points at least " + to_text(kLeastSpacing) + " m apart");
+  }
+  require_above(name + ".speed", speed, 0.0, kGreatestSpeed, "m/s");
+}
+
+void MoverWalk::validate(const std::string& name) const {
+  require_point(name + ".low", low);
+  require_point(name + ".high", high);
+  if (!(low.x <= high.x && low.y <= high.y)) {
+    throw InvalidValue(name + ".high", text_of(high),
+                       "no less than low, " + text_of(low) + ", in x and in y");
+  }
+  const double least = distance(low, high) / kGreatestSpeed;
+  require_in(name + ".leg_time", leg_time, kLeastLegTime, kGreatestLegTime, "s");
+  if (leg_time < least) {
+    throw InvalidValue(name + ".leg_time", to_text(leg_time),
+                       "at least " + to_text(least) + " s, what the box's diagonal takes at " +
+                           to_text(kGreatestSpeed) + " m/s");
+  }
+}
+
+void Mover::validate(const std::string& name) const {
+  std::visit(
+      [&](const auto& of) {
+        of.validate(name);
+        if (of.center == Point{}) return;
+        throw InvalidValue(name + ".center", text_of(of.center),
+                           "(0, 0): the mover's course says where it is");
+      },
+      shape);
+  if (const auto* const path = std::get_if<MoverPath>(&course)) path->validate(name + ".path");
+  if (const auto* const walk = std::get_if<MoverWalk>(&course)) walk->validate(name + ".walk");
+}
+
 World::World(WorldDef def) {
   open_rings(def.obstacles);
   def_ = std::make_shared<WorldDef>(std::move(def));
@@ -312,11 +400,14 @@ World::World(WorldDef def) {
   require_in("arena.origin[0]", def_->origin.x, -kFurthest, kFurthest, "m");
   require_in("arena.origin[1]", def_->origin.y, -kFurthest, kFurthest, "m");
   ObstacleCheck(*def_).check_all();
+  require_movers(*def_);
 
   Shapes shapes;
   for (const Obstacle& obstacle : def_->obstacles) std::visit(shapes, obstacle);
   surfaces_ = std::make_shared<Surfaces>(Box{def_->origin, def_->far_corner()}, shapes.outlines,
                                          shapes.thin_walls, std::move(shapes.circles));
+  movers_ = std::make_shared<Movers>(def_->movers);
+  moves_ = !def_->movers.empty();
 
   require_start(*this);
   devlearn::require_place(*this, "target", def_->target);
@@ -331,11 +422,36 @@ World World::with_start(const Pose& start) const {
   return world;
 }
 
+World World::standing() const {
+  WorldDef still = *def_;
+  still.movers.clear();
+  World world = *this;
+  world.def_ = std::make_shared<WorldDef>(std::move(still));
+  world.movers_ = std::make_shared<Movers>(world.def_->movers);
+  world.moves_ = false;
+  return world;
+}
+
 double World::wall_distance(Point p) const noexcept { return surfaces_->wall_distance(p); }
 
-double World::clearance(Point point, bool walls_count) const noexcept {
-  const double obstacles = surfaces_->distance(point);
-  return walls_count ? std::min(obstacles, wall_distance(point)) : obstacles;
+double World::clearance(Point point, bool walls_count, double time) const noexcept {
+  double least = surfaces_->distance(point);
+  if (walls_count) least = std::min(least, wall_distance(point));
+  if (!moves_) return least;
+  return std::min(least, std::max(0.0, movers_->distance(point, time)));
+}
+
+std::vector<Obstacle> World::movers_at(double time) const {
+  std::vector<Obstacle> there;
+  for (std::size_t i = 0; i < movers_->size(); ++i) {
+    std::visit(
+        [&](auto shape) {
+          shape.center = movers_->place(i, time);
+          there.emplace_back(shape);
+        },
+        movers_->shape(i));
+  }
+  return there;
 }
 
 }  // namespace devlearn

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,10 +74,53 @@ Obstacle read_obstacle(const json::Node& node) {
   node["shape"].refuse("\"circle\", \"rectangle\", \"polygon\" or \"polyline\"");
 }
 
+MoverPath read_path(const json::Node& node) {
+  node.require_known({"points", "speed", "then"});
+  MoverPath path;
+  path.points = points(node["points"]);
+  path.speed = node["speed"].number();
+  const std::string& then = node["then"].text();
+  const auto* const known =
+      std::find(std::begin(MoverPath::kThens), std::end(MoverPath::kThens), then);
+  if (known == std::end(MoverPath::kThens)) {
+    node["then"].refuse("\"back\", \"around\" or \"stop\"");
+  }
+  path.then = static_cast<MoverPath::Then>(known - std::begin(MoverPath::kThens));
+  return path;
+}
+
+MoverWalk read_walk(const json::Node& node) {
+  node.require_known({"seed", "low", "high", "leg_time"});
+  return {node["seed"].whole_number(), point(node["low"]), point(node["high"]),
+          node["leg_time"].number()};
+}
+
+Mover read_mover(const json::Node& node) {
+  Mover mover;
+  const std::string& shape = node["shape"].text();
+  if (shape == "circle") {
+    node.require_known({"shape", "radius", "path", "walk"});
+    mover.shape = Circle{{}, node["radius"].number()};
+  } else if (shape == "rectangle") {
+    node.require_known({"shape", "size", "angle", "path", "walk"});
+    const auto [width, height] = two_numbers(node["size"], "[width, height]");
+    mover.shape = Rectangle{{}, width, height, node.has("angle") ? node["angle"].number() : 0.0};
+  } else {
+    node["shape"].refuse("\"circle\" or \"rectangle\"");
+  }
+  if (node.has("path") && node.has("walk")) node["walk"].refuse("nothing, beside a path");
+  if (node.has("walk")) {
+    mover.course = read_walk(node["walk"]);
+  } else {
+    mover.course = read_path(node["path"]);
+  }
+  return mover;
+}
+
 WorldDef read_world(const json::Node& world) {
   require_format(world);  // before all else, as a newer one may have other fields
-  world.require_known(
-      {"format", "version", "name", "description", "arena", "start", "target", "obstacles"});
+  world.require_known({"format", "version", "name", "description", "arena", "start", "target",
+                       "obstacles", "movers"});
   WorldDef def;
   if (world.has("name")) def.name = world["name"].text();
   if (world.has("description")) def.description = world["description"].text();
@@ -96,6 +141,10 @@ WorldDef read_world(const json::Node& world) {
 
   world["obstacles"].each_element(
       [&](const json::Node& obstacle) { def.obstacles.push_back(read_obstacle(obstacle)); });
+  if (world.has("movers")) {
+    world["movers"].each_element(
+        [&](const json::Node& mover) { def.movers.push_back(read_mover(mover)); });
+  }
   return def;
 }
 
@@ -124,15 +173,19 @@ std::string json_list(const std::vector<T>& items, const Write& write) {
 }
 std::string json_points(const std::vector<Point>& points) { return json_list(points, json_point); }
 
+std::string sides_of(const Rectangle& rectangle) {
+  return R"("size": )" + json_pair(rectangle.width, rectangle.height) + R"(, "angle": )" +
+         json_number(rectangle.angle);
+}
+
 struct ObstacleText {
   std::string operator()(const Circle& circle) const {
     return R"({"shape": "circle", "center": )" + json_point(circle.center) + R"(, "radius": )" +
            json_number(circle.radius) + "}";
   }
   std::string operator()(const Rectangle& rectangle) const {
-    return R"({"shape": "rectangle", "center": )" + json_point(rectangle.center) + R"(, "size": )" +
-           json_pair(rectangle.width, rectangle.height) + R"(, "angle": )" +
-           json_number(rectangle.angle) + "}";
+    return R"({"shape": "rectangle", "center": )" + json_point(rectangle.center) + ", " +
+           sides_of(rectangle) + "}";
   }
   std::string operator()(const Polygon& polygon) const {
     // Left out where there are none, as the origin is.
@@ -144,6 +197,37 @@ struct ObstacleText {
     return R"({"shape": "polyline", "points": )" + json_points(polyline.points) + "}";
   }
 };
+
+struct MoverText {
+  std::string operator()(const Circle& circle) const {
+    return R"({"shape": "circle", "radius": )" + json_number(circle.radius);
+  }
+  std::string operator()(const Rectangle& rectangle) const {
+    return R"({"shape": "rectangle", )" + sides_of(rectangle);
+  }
+  std::string operator()(const MoverPath& path) const {
+    return R"(, "path": {"points": )" + json_points(path.points) + R"(, "speed": )" +
+           json_number(path.speed) + R"(, "then": )" +
+           json::quoted(MoverPath::kThens[static_cast<std::size_t>(path.then)]) + "}}";
+  }
+  std::string operator()(const MoverWalk& walk) const {
+    return R"(, "walk": {"seed": )" + std::to_string(walk.seed) + R"(, "low": )" +
+           json_point(walk.low) + R"(, "high": )" + json_point(walk.high) + R"(, "leg_time": )" +
+           json_number(walk.leg_time) + "}}";
+  }
+};
+
+// A list of what has such texts, one a line.
+template <typename Things, typename Text>
+std::string json_lines(const Things& things, const Text& text_of) {
+  std::string text = "[";
+  const char* separator = "\n    ";
+  for (const auto& thing : things) {
+    text += separator + text_of(thing);
+    separator = ",\n    ";
+  }
+  return text + (things.empty() ? "]" : "\n  ]");
+}
 
 }  // namespace
 
@@ -174,13 +258,14 @@ std::string World::to_json() const {
                    json_number(def_->start.heading) + "}");
   add("target",
       R"({"x": )" + json_number(def_->target.x) + R"(, "y": )" + json_number(def_->target.y) + "}");
-  std::string obstacles = "[";
-  const char* separator = "\n    ";
-  for (const Obstacle& obstacle : def_->obstacles) {
-    obstacles += separator + std::visit(ObstacleText{}, obstacle);
-    separator = ",\n    ";
+  add("obstacles", json_lines(def_->obstacles, [](const Obstacle& obstacle) {
+        return std::visit(ObstacleText{}, obstacle);
+      }));
+  if (!def_->movers.empty()) {
+    add("movers", json_lines(def_->movers, [](const Mover& mover) {
+          return std::visit(MoverText{}, mover.shape) + std::visit(MoverText{}, mover.course);
+        }));
   }
-  add("obstacles", obstacles + (def_->obstacles.empty() ? "]" : "\n  ]"));
   return text + "\n}\n";
 }
 

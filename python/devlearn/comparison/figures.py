@@ -171,7 +171,7 @@ def generalisation(compared: Compared) -> Iterator[tuple[str, list[Picture]]]:
 def worst(run: Worst) -> Picture:
     """The last round of a run."""
     axes = plots.plot_trajectory(run.record, entry=-1, by="time", title=False)
-    _, steps, arrived = run.record.rounds[-1]
+    _, steps, arrived, _ = run.record.rounds[-1]
     outcome = "arrived" if arrived else "not arrived"
     return picture(
         axes,

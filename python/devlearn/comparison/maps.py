@@ -39,7 +39,7 @@ def _steps_from(trial: Trial, situation: int, least: int) -> int | None:
     learned = copy.deepcopy(trial.agent if trial.learner is None else trial.learner)
     world = trial.world.with_start(trial.grid.centre(situation))
     fresh = Trial(world, trial.config, trial.seed, learned)
-    _, steps, arrived = fresh.path_learning(1, MOST * least, rounds_only=True).rounds[0]
+    _, steps, arrived, _ = fresh.path_learning(1, MOST * least, rounds_only=True).rounds[0]
     return int(steps) if arrived else None
 
 

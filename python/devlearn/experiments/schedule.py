@@ -122,5 +122,5 @@ def _require(quantity: str, value: object, least: int, power: int) -> None:
 
 
 def _plain(record: Record) -> list[tuple[int, int, bool]]:
-    rounds: list[tuple[int, int, bool]] = record.rounds.tolist()
+    rounds: list[tuple[int, int, bool]] = record.rounds[["round", "steps", "arrived"]].tolist()
     return rounds

@@ -72,7 +72,8 @@ def plot_trajectory(
     and gives the trial's number of the round where that is another. ``by="kind"`` tells explored,
     exploited and exhausted steps apart, each marker standing where the choice was made, with their
     numbers in the legend; ``by="time"`` colours by step; ``None`` draws one line in ``color``,
-    named ``label``. ``world=False`` adds the path to what is already drawn.
+    named ``label``. ``world=False`` adds the path to what is already drawn. Movers are drawn where
+    they were when the entry began.
     """
     if by not in ("kind", "time", None):
         raise InvalidValue("by", by, '"kind", "time" or None')
@@ -81,7 +82,7 @@ def plot_trajectory(
     bar = legend and by == "time" and len(path) > 1
     kinds = record.kind[record.steps_of(entry)]
     rows = 2 if by == "kind" and len(np.unique(kinds)) > 1 else 1
-    _, steps, arrived = record.rounds[entry]
+    _, steps, arrived, _ = record.rounds[entry]
     name = round_name(record, entry)
     told = name + ("\n" if name.endswith(")") else ": ") + f"{thousands(steps)} steps"
     told += "" if arrived else ", not arrived"
@@ -90,7 +91,7 @@ def plot_trajectory(
     )
     if world:
         draw_arena(ax, place)
-        draw_obstacles(ax, place)
+        draw_obstacles(ax, place, _time_at_start(record, entry))
     handles: list[Any] = []
     if by == "kind":
         for order, (kind, (name, how)) in enumerate(_KINDS.items()):
@@ -140,6 +141,11 @@ def plot_trajectory(
     if title:
         ax.set_title(told)
     return ax
+
+
+def _time_at_start(record: Record, entry: int) -> float:
+    """When the entry began [s]; 0 in a world where nothing moves, whatever the file says."""
+    return float(record.times(entry)[0]) if record.world.movers else 0.0
 
 
 def _shown_larger(line: Line2D) -> Line2D:

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
-from .._core import Circle, Polygon, Polyline, Rectangle, Robot, RobotDef, World
+from .._core import Circle, MoverPath, Polygon, Polyline, Rectangle, Robot, RobotDef, World
 from ..analysis.fields import Source, config_of, world_of
 from .style import BLUE, COLUMN, GREEN, INK, OBSTACLE, VERMILLION, legend_below, new_figure, styled
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 AT_START = "robot at start"
+DASHES = (0, (4, 2))
 LOWEST, HIGHEST = 0.3, 9.0  # axes of arenas that are far from square [inches]
 
 
@@ -46,14 +47,18 @@ def arena_axes(
     return figure.add_axes((left / COLUMN, bottom / total, width / COLUMN, height / total))
 
 
-def draw_obstacles(ax: Axes, world: World, **how: Any) -> None:
-    """The obstacles as patches, drawn as ``how`` says."""
+def draw_obstacles(ax: Axes, world: World, time: float = 0.0, **how: Any) -> None:
+    """The obstacles as patches, drawn as ``how`` says; movers where they are at ``time`` [s].
+
+    Dashed is where the centre of each mover goes: its path, or the box of its walk.
+    """
     how = {"facecolor": OBSTACLE, "edgecolor": BLUE, "linewidth": 0.7, "zorder": 1.0, **how}
     # Each by itself can be told apart in an SVG; thousands would take minutes.
-    many = len(world.obstacles) > 1000
+    obstacles = [*world.obstacles, *world.movers_at(time)]
+    many = len(obstacles) > 1000
     drawn: list[patches.Patch] = []
     arena = patches.Rectangle(world.origin, world.width, world.height, transform=ax.transData)
-    for i, obstacle in enumerate(world.obstacles):
+    for i, obstacle in enumerate(obstacles):
         patch: patches.Patch
         if isinstance(obstacle, Circle):
             patch = patches.Circle((obstacle.center[0], obstacle.center[1]), obstacle.radius, **how)
@@ -69,13 +74,29 @@ def draw_obstacles(ax: Axes, world: World, **how: Any) -> None:
         if many:
             drawn.append(patch)
             continue
-        patch.set_gid(f"obstacle-{i}")
+        moving = i - len(world.obstacles)
+        patch.set_gid(f"obstacle-{i}" if moving < 0 else f"mover-{moving}")
         ax.add_patch(patch)
         # What lies beyond the walls, where a world lets an obstacle reach into them, is not shown.
         patch.set_clip_path(arena)
     if many:
         ax.add_collection(
             PatchCollection(drawn, match_original=True, zorder=how["zorder"], clip_path=arena)
+        )
+    for i, mover in enumerate(world.movers):
+        course = mover.course
+        if isinstance(course, MoverPath):
+            points, closed = course.points, course.then == "around"
+        else:
+            (x, y), (right, top) = course.low, course.high
+            points, closed = [(x, y), (right, y), (right, top), (x, top)], True
+        ax.plot(
+            *np.array([*points, points[0]] if closed else points).T,
+            color=how["edgecolor"],
+            linewidth=0.7,
+            linestyle=DASHES,
+            zorder=how["zorder"],
+            gid=f"course-{i}",
         )
 
 
@@ -192,6 +213,7 @@ def plot_world(
     ax: Axes | None = None,
     robot: RobotDef | None = None,
     pose: Sequence[float] | None = None,
+    time: float = 0.0,
     sonar: bool = True,
     legend: bool = True,
 ) -> Axes:
@@ -200,16 +222,17 @@ def plot_world(
     ``robot`` (a record's or a trial's own, else the paper's) stands at ``pose`` (x, y [m], heading
     [degrees]; the world's start). With ``sonar`` each ray runs from the body's rim to what it
     meets, a dot marking the echo; a ray that meets nothing ends, dashed, at the sonar's range.
+    Movers are where they are at ``time`` [s]; dashed is their path, or the box of their walk.
     """
     body = robot if robot is not None else config_of(world).robot
     place = world_of(world)
     stand = tuple(place.start) if pose is None else tuple(pose)
     ax = arena_axes(ax, place, legend=legend)
     draw_arena(ax, place)
-    draw_obstacles(ax, place)
+    draw_obstacles(ax, place, time)
     handles = [draw_robot(ax, body.radius, stand, AT_START if pose is None else "robot")]
     if sonar:
-        echoes = Robot(place, body).sonar(stand)
+        echoes = Robot(place, body).sonar(stand, time)
         for i, (angle, echo) in enumerate(zip(body.sonar_angles(), echoes)):
             met = echo < body.sonar_range
             direction = math.radians(stand[2] + angle)
@@ -219,7 +242,7 @@ def plot_world(
                 stand[1] + reach * math.sin(direction),
                 color=INK,
                 linewidth=0.7,
-                linestyle="-" if met else (0, (4, 2)),
+                linestyle="-" if met else DASHES,
                 marker="o" if met else None,
                 markersize=2.6,
                 markevery=[1],
@@ -233,8 +256,12 @@ def plot_world(
             )
         )
     handles.append(draw_target(ax, place))
-    if place.obstacles:
+    if place.obstacles or place.movers:
         handles.append(_obstacle_handle())
+    if place.movers:
+        handles.append(
+            Line2D([], [], color=BLUE, linewidth=0.7, linestyle=DASHES, label="where one moves")
+        )
     if legend:
         legend_below(ax, handles)
     return ax

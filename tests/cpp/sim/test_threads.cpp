@@ -83,7 +83,7 @@ TEST_CASE("no drive and no echo moves a counter that Box2D keeps for the process
   const Robot robot(world, {});
   int touched = 0;
   for (double heading = 0.0; heading < 360.0; heading += 5.0) {
-    touched += drive_in_box2d(Scene(world, {}, {0.12, 0.12, heading}, heading, 0.1), 8).touched;
+    touched += drive_in_box2d(Scene(world, {}, {0.12, 0.12, heading}, heading, 0.1, {}), 8).touched;
     robot.sonar({0.3, 0.3, heading});
   }
   CHECK(touched > 10);

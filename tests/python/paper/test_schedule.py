@@ -44,7 +44,7 @@ def test_a_round_of_path_learning_ends_at_the_target_or_the_limit():
 @pytest.mark.parametrize("planned", [Schedule((), 0), Schedule((0,), 0)])
 def test_a_schedule_of_nothing_ends_at_once(planned):
     parts = [*planned.parts(Trial(FAR))]
-    assert [part.rounds.tolist() for part in parts] == [[(1, 0, False)]] * len(planned.free)
+    assert [part.rounds.tolist() for part in parts] == [[(1, 0, False, 0)]] * len(planned.free)
 
 
 def test_so_many_rounds_are_run_at_once_as_leave_nothing_to_decide():

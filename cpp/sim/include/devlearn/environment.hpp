@@ -34,11 +34,17 @@ class Environment {
   /// changes.
   Environment twin(std::uint64_t seed) const;
 
+  /// Another with the same robot and configuration in another world, at its start; the time is the
+  /// same. The arena has to be, too, for the situations are its grid's. Throws InvalidValue.
+  Environment in(const World& world) const;
+
   /// Where the robot is, and all that else decides what it senses there: what a snapshot keeps.
   struct Place {
     Pose pose;      ///< its own [m, m, degrees]
     Pose estimate;  ///< the pose that odometry makes of its way; without noise, the same
     Random noise;   ///< from which what is sensed, and then the next motion, draws
+    /// So many sample times have passed, over all rounds.
+    std::int64_t steps = 0;
   };
   /// All that changes from step to step.
   struct State {
@@ -61,6 +67,8 @@ class Environment {
   const State& state() const noexcept { return state_; }
   /// Likewise, its pose [m, m, degrees].
   const Pose& pose() const noexcept { return state_.place.pose; }
+  /// The world's time, steps made so far x sample_time [s]: where its movers are.
+  double time() const noexcept { return time_of(state_.place); }
   /// Whether it is at the target: d_g <= goal_radius.
   bool arrived() const noexcept { return state_.arrived; }
   /// What its sonars hear: sonar_count values [m], as Robot::sonar has them, spoiled by noise.
@@ -106,10 +114,13 @@ class Environment {
   };
 
   Environment(std::shared_ptr<const Fixed> fixed, std::uint64_t seed);
+  double time_of(const Place& place) const noexcept {
+    return static_cast<double>(place.steps) * config().robot.sample_time;
+  }
   Robot::Move moved(int motion, Random& noise) const;
   Pose reckoned(const Pose& pose, Random& noise) const;
   State sensed(const Place& place) const;
-  std::vector<double> heard(const Pose& pose, Random& noise) const;
+  std::vector<double> heard(const Place& place, Random& noise) const;
   double distance_to_target(const Pose& pose) const noexcept;
   SituationId situation(const Senses& senses) const;
   double sef(const Senses& senses, SituationId situation) const;

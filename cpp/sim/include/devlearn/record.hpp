@@ -38,6 +38,9 @@ struct Round {
   std::int32_t round = 0;  ///< its number in the trial, from 1
   std::int64_t steps = 0;  ///< steps of it in this record
   bool arrived = false;    ///< whether d_g <= goal_radius after any of them
+  /// Steps that the trial had made before, so that it began at `began` x sample_time [s]; -1: not
+  /// known, as in files of builds that had no such field.
+  std::int64_t began = -1;
 };
 
 /// What happened, as columns of one value a step. The poses are one more a round: round i's are
@@ -118,9 +121,9 @@ struct Record {
   /// Whether it holds rounds without their steps and poses.
   bool rounds_only() const noexcept { return !rounds.empty() && x.empty(); }
 
-  /// Begins a round: its number and the pose it begins from. Where the last round has this number
-  /// and ended at this pose, that one goes on.
-  void begin_round(std::int32_t number, const Pose& pose);
+  /// Begins a round: its number, the pose it begins from, and after how many steps. Where the last
+  /// round has this number and ended at this pose, that one goes on.
+  void begin_round(std::int32_t number, const Pose& pose, std::int64_t began = -1);
   /// Makes room for so many more steps.
   void reserve(std::size_t more);
   /// Appends a step to the round begun last.

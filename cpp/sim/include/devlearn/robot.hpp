@@ -10,6 +10,8 @@
 
 namespace devlearn {
 
+struct Drive;
+struct Scene;
 class Sonars;
 
 /// The robot of Fig. 1: a circle on two wheels that turns, then drives forward.
@@ -87,8 +89,9 @@ struct WheelSpeeds {
 };
 
 /// The robot's body in a world: how it moves and what its sonars hear. Const throughout: a step is
-/// a pure function of (world, pose, motion). Any number of threads may ask one robot, or several,
-/// at once.
+/// a pure function of (world, time, pose, motion). Any number of threads may ask one robot, or
+/// several, at once. Times are the world's [s]: they say where its movers are, and are looked at
+/// only where there are some.
 class Robot {
  public:
   /// Throws InvalidValue.
@@ -109,27 +112,31 @@ class Robot {
   /// Eq. 1: turns by steering_angles[motion], then drives for one sample time. Where the swept
   /// body keeps clear of everything, that is Eq. 1 exactly; otherwise Box2D resolves the drive
   /// from this pose. The heading always ends as commanded. Throws InvalidValue for a motion
-  /// outside M or a pose that require_place refuses.
-  Move step(const Pose& pose, int motion) const;
+  /// outside M, a pose that require_place refuses, or a time outside [0, 1e9] s.
+  ///
+  /// While it drives, movers go straight from where they are to where they are a sample time later,
+  /// and push it. One that pins it against what stands still goes on over it: then the body stays
+  /// where it is, or drives as among what stands still where that leads no deeper into movers.
+  Move step(const Pose& pose, int motion, double time = 0.0) const;
 
   /// The same for any turn, in degrees, and any speed of the drive from 0 m/s on, at
   /// most 1 m a step: what becomes of a motion that is not made exactly. Throws InvalidValue.
-  Move drive(const Pose& pose, double turn, double speed) const;
+  Move drive(const Pose& pose, double turn, double speed, double time = 0.0) const;
 
   /// Which motions the robot can make from a pose, as its safety layer sees it: those that keep its
-  /// body further than safety_margin from obstacles and walls all along the way of Eq. 1. Where
-  /// none does, or there is no such layer, every one. `allowed` has room for a bool a motion;
+  /// body further than safety_margin from obstacles, walls and movers all along the way of Eq. 1.
+  /// Where none does, or there is no such layer, every one. `allowed` has room for a bool a motion;
   /// whether any is false. Throws InvalidValue for a pose that is not finite.
-  bool allowed(const Pose& pose, bool* allowed) const;
+  bool allowed(const Pose& pose, bool* allowed, double time = 0.0) const;
 
   /// Echo distances from the body's rim [m], one for each sonar from right to left, by raycast:
   /// sonar_range where nothing is heard, 0 (or sonar_least_range) where something touches the rim.
   /// `echoes` has room for sonar_count values.
-  void sonar(const Pose& pose, double* echoes) const;
+  void sonar(const Pose& pose, double* echoes, double time = 0.0) const;
   /// The same, each sonar looking aside by some degrees.
-  void sonar(const Pose& pose, const double* aside, double* echoes) const;
+  void sonar(const Pose& pose, const double* aside, double* echoes, double time = 0.0) const;
   /// As a vector.
-  std::vector<double> sonar(const Pose& pose) const;
+  std::vector<double> sonar(const Pose& pose, double time = 0.0) const;
 
   /// Eq. 2: wheel speeds of the turn, held for one sample time.
   WheelSpeeds turn_speeds(int motion) const;
@@ -137,14 +144,25 @@ class Robot {
   WheelSpeeds drive_speeds() const noexcept;
 
   /// Throws InvalidValue unless the body fits at the pose: inside the arena and, but for Box2D's
-  /// slop of 0.005 m, in touch with nothing. `what` names the pose in the message.
+  /// slop of 0.005 m, in touch with nothing that stands still. Where movers pinned it, it is in
+  /// touch with these. `what` names the pose in the message.
   void require_place(const Pose& pose, const char* what = "pose") const;
+  /// The same, and in touch with no mover: where it may be put at a time.
+  void require_free(const Pose& pose, double time, const char* what = "pose") const;
+  /// Throws InvalidValue unless that holds at the world's start at any time.
+  void require_start() const;
 
   const RobotDef& def() const noexcept { return def_; }    ///< as given
   const World& world() const noexcept { return *world_; }  ///< as given
 
  private:
-  Move move(const Pose& pose, double turn, double speed) const;
+  Move move(const Pose& pose, double turn, double speed, double time) const;
+  bool movers_keep_clear(const Pose& from, const Pose& to, double room, double time) const;
+  bool stands(const Pose& pose, double depth) const noexcept;
+  Move among_standing(const Scene& scene, const Pose& pose, const Pose& straight) const;
+  Move among_moving(const Scene& scene, const Pose& pose, const Pose& straight,
+                    double end_time) const;
+  bool went_between(const Drive& drive, const Scene& scene, const Pose& pose) const;
 
   std::shared_ptr<const World> world_;
   RobotDef def_;

@@ -32,8 +32,8 @@ struct ShortestPath {
 };
 
 /// The shortest way, in steps, that the robot's own motions allow from a pose to the target
-/// without touching anything: what a learnt path is measured against. goal_radius: of the target,
-/// in (0, 100] m.
+/// without touching anything that stands still: what a learnt path is measured against. Of movers
+/// it knows nothing. goal_radius: of the target, in (0, 100] m.
 ///
 /// First a grid of at most 2^22 cells over the arena is flooded from the target, through every cell
 /// that may hold a place where the body fits: what that does not reach has no way. Then A* goes

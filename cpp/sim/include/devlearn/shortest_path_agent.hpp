@@ -12,7 +12,8 @@ namespace devlearn {
 
 /// Follows the way that shortest_path finds from where the robot stands: with the map, the bound of
 /// what can be learned without one. It keeps to one way, and plans anew where it is off that. At
-/// the target it makes the first motion that touches nothing.
+/// the target it makes the first motion that touches nothing. Of movers it knows nothing: where one
+/// pushed it off its way, it plans anew.
 class ShortestPathAgent final : public Agent {
  public:
   /// In a state, and in files.
@@ -32,7 +33,8 @@ class ShortestPathAgent final : public Agent {
   Development observe(const Outcome&) override { return {}; }
   std::optional<AgentState> state() const override;
 
-  const Robot& robot() const noexcept { return robot_; }        ///< the robot that it plans for
+  /// The robot that it plans for, in a world without movers.
+  const Robot& robot() const noexcept { return robot_; }
   double goal_radius() const noexcept { return goal_radius_; }  ///< [m]
 
  private:

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "devlearn/adaptive.hpp"
 #include "devlearn/agent.hpp"
@@ -71,12 +72,27 @@ class Trial {
   void begin_round();
   /// Puts the robot anywhere it fits for a new round. Throws InvalidValue.
   void place(const Pose& pose);
+  /// Puts the robot at the start of another world, which has the same arena; robot, grid, agent
+  /// and time stay. The present round ends, where the agent is in one. Throws InvalidValue.
+  void change_world(const World& world);
+
+  /// A world that the trial was in before.
+  struct EarlierWorld {
+    World world;         ///< as it was
+    std::int64_t steps;  ///< made by the trial when it was changed
+  };
+
   /// Puts the robot where it was in a round, 0 before the first, of which the agent was told or
   /// not: what goes on from a snapshot. Throws InvalidValue.
-  void resume(const Environment::Place& place, std::int32_t round, bool round_open);
+  void resume(const Environment::Place& place, std::int32_t round, bool round_open,
+              std::vector<EarlierWorld> earlier_worlds = {});
 
   /// Where the robot is [m, m, degrees].
   const Pose& pose() const noexcept { return environment_.pose(); }
+  /// The world's time: steps made so far, over all rounds, x sample_time [s].
+  double time() const noexcept { return environment_.time(); }
+  /// What change_world changed, the first world first.
+  const std::vector<EarlierWorld>& earlier_worlds() const noexcept { return earlier_worlds_; }
   /// The robot in its world, without who chooses.
   const Environment& environment() const noexcept { return environment_; }
   /// The present round, from 1; 0 before the first.
@@ -118,6 +134,7 @@ class Trial {
   Environment environment_;
   std::uint64_t seed_;
   std::shared_ptr<Agent> agent_;
+  std::vector<EarlierWorld> earlier_worlds_;
   std::int32_t round_ = 0;
   bool round_open_ = false;
   bool under_way_ = false;

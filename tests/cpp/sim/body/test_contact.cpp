@@ -290,7 +290,7 @@ TEST_CASE("A drive along one surface is solved directly where it can be, along s
   const World world = with({Circle{{2.5, 2.5}, 0.3}, Circle{{2.5, 3.1}, 0.3}});
   const RobotDef robot;
   const auto direct = [&](const Pose& pose) {
-    return drive_directly(Scene(world, robot, pose, pose.heading, robot.speed), kFewIterations);
+    return drive_directly(Scene(world, robot, pose, pose.heading, robot.speed, {}), kFewIterations);
   };
   MESSAGE("solved directly: " << solves_directly());
   CHECK(direct({0.105, 2.0, 180.0}).has_value() == solves_directly());
@@ -310,7 +310,7 @@ TEST_CASE("A drive solved directly is that of a Box2D world, to the bit") {
     for (int i = 0; i < 300; ++i) {
       const auto pose = free_pose(random, world, def.radius - 0.005);
       if (!pose || world.clearance({pose->x, pose->y}, true) > def.radius + 0.05) continue;
-      const Scene scene(world, def, *pose, between(random, 0.0, 360.0), def.speed);
+      const Scene scene(world, def, *pose, between(random, 0.0, 360.0), def.speed, {});
       const std::optional<Drive> solved = drive_directly(scene, kFewIterations);
       const Drive expected = drive_in_box2d(scene, kFewIterations);
       several += !solved;
