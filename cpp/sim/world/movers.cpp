@@ -65,6 +65,13 @@ std::vector<double> distances_along(const MoverPath& path) {
   return gone;
 }
 
+// As std::visit, but of what is never without a value, so that nothing is thrown.
+template <typename First, typename Second, typename Visit>
+auto either(const std::variant<First, Second>& one, const Visit& visit) noexcept {
+  const First* const first = std::get_if<First>(&one);
+  return first != nullptr ? visit(*first) : visit(*std::get_if<Second>(&one));
+}
+
 }  // namespace
 
 Movers::Movers(const std::vector<Mover>& movers) {
@@ -115,11 +122,11 @@ Point Movers::Wandering::place(double time) const noexcept {
 }
 
 double Movers::Moving::distance(Point p) const noexcept {
-  return std::visit([p](const auto& of) { return distance_to(of, p); }, shape);
+  return either(shape, [p](const auto& of) { return distance_to(of, p); });
 }
 
 double Movers::Moving::swept_distance(Point p, Point q) const noexcept {
-  return std::visit([p, q](const auto& of) { return distance_swept(of, p, q); }, shape);
+  return either(shape, [p, q](const auto& of) { return distance_swept(of, p, q); });
 }
 
 double Movers::Moving::distance_ever(const Way& way, Point p) const noexcept {
@@ -144,8 +151,8 @@ double Movers::Moving::distance_ever(const Wandering& walk, Point p) const noexc
 }
 
 Point Movers::place(std::size_t mover, double time) const noexcept {
-  return std::visit([now = counted(time)](const auto& course) { return course.place(now); },
-                    movers_[mover].course);
+  return either(movers_[mover].course,
+                [now = counted(time)](const auto& course) { return course.place(now); });
 }
 
 double Movers::distance(std::size_t mover, Point p, double time) const noexcept {
@@ -162,8 +169,7 @@ double Movers::distance(Point p, double time) const noexcept {
 
 double Movers::distance_ever(std::size_t mover, Point p) const noexcept {
   const Moving& moving = movers_[mover];
-  return std::visit([&](const auto& course) { return moving.distance_ever(course, p); },
-                    moving.course);
+  return either(moving.course, [&](const auto& course) { return moving.distance_ever(course, p); });
 }
 
 // Seen from a mover that goes straight and evenly, so does what goes from p to q.

@@ -141,6 +141,7 @@ std::vector<NamedRing> named_rings(const std::string& name, const Polygon& polyg
 
 void require_simple(const std::vector<NamedRing>& rings) {
   std::vector<const Ring*> corners;
+  corners.reserve(rings.size());
   for (const NamedRing& ring : rings) corners.push_back(ring.corners);
   RingSweep sweep(corners);
   const char* const kHole = "a hole inside the outline, apart from it and from other holes";

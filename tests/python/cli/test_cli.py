@@ -148,7 +148,9 @@ def test_run_writes_the_records_that_a_trial_makes(tmp_path):
         rows = list(csv.reader(file))
     rounds = expected["paths"].rounds
     assert rows[0] == ["round", "steps", "arrived"]
-    assert [[int(v) for v in row] for row in rows[1:]] == [list(map(int, r)) for r in rounds]
+    assert [[int(v) for v in row] for row in rows[1:]] == [
+        [int(r[name]) for name in rows[0]] for r in rounds
+    ]
     assert (folder / "overview.png").read_bytes().startswith(PNG)
     assert f"written: {folder}" in done.stdout
 
