@@ -93,8 +93,7 @@ void bind_record(py::module_& m) {
   m.attr("step_columns") = described(Record::step_columns());
   py::list may_lack;
   detail::each_column(Record::step_columns(), [&](const auto& column) {
-    if constexpr (std::decay_t<decltype(column)>::may_lack())
-      may_lack.append(column.name);
+    if constexpr (std::decay_t<decltype(column)>::may_lack()) may_lack.append(column.name);
   });
   m.attr("later_columns") = py::tuple(may_lack);
   m.attr("pose_columns") = described(Record::pose_columns());

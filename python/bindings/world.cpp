@@ -184,7 +184,8 @@ void bind_world(py::module_& m) {
       "(x, y) inside it and outside every obstacle, in metres and degrees; obstacles, a list of\n"
       "Circle, Rectangle, Polygon and Polyline; origin (x, y), the arena's corner of least x and\n"
       "y, each within 100 000 m of 0; movers, a list of Mover, which go through obstacles, walls\n"
-      "and each other, but not over the start. Where these are is a pure function of time [s], from\n"
+      "and each other, but not over the start. Where these are is a pure function of time [s], "
+      "from\n"
       "0 to 1e9. Raises InvalidValue.");
   def_pickling(world, {"width", "height", "start", "target", "obstacles", "name", "description",
                        "origin", "movers"});
@@ -239,8 +240,10 @@ void bind_world(py::module_& m) {
           py::arg("radius") = 0.1,
           "The world in a map of ROS's map_server: its YAML, with a PGM or PNG, in the map's own\n"
           "frame. start (x, y, heading) and target (x, y), where None drawn by `seed`, with a way\n"
-          "between them for a robot of `radius` [m]. unknown: what cells are of which the map does\n"
-          "not know, 'occupied', 'free' or 'border' (occupied where they touch free ones). Outlines\n"
+          "between them for a robot of `radius` [m]. unknown: what cells are of which the map "
+          "does\n"
+          "not know, 'occupied', 'free' or 'border' (occupied where they touch free ones). "
+          "Outlines\n"
           "lie within `tolerance` [m] of those traced; None: half a cell. Needs the extra `maps`;\n"
           "docs/maps.md tells all, devlearn.maps.import_ros_map what was made of a map. Raises\n"
           "FileError, InvalidValue.")

@@ -102,7 +102,7 @@ class Record:  # noqa: D101 - made of the columns
             setattr(self, name, columns[name])
         self.rounds = np.empty(len(columns["rounds"]), _ROUNDS_DTYPE)  # without padding
         self.rounds["began"] = -1  # not known, unless they say
-        for field in columns["rounds"].dtype.names:
+        for field in columns["rounds"].dtype.names or ():
             self.rounds[field] = columns["rounds"][field]
         self.echoes = columns.get("echoes")
 
@@ -553,9 +553,10 @@ def _check(columns: Mapping[str, npt.NDArray[Any]]) -> None:
         if not isinstance(columns[name], np.ndarray) or columns[name].ndim == 0:
             raise InvalidValue(name, f"a value of {type(columns[name]).__name__}", "an array")
     rounds = columns["rounds"]
+    fields: Mapping[str, Any] = rounds.dtype.fields or {}
     for field, kind in _ROUND_FIELDS.items():
-        untold = field == "began" and field not in (rounds.dtype.names or ())
-        if not untold and (rounds.dtype.fields or {}).get(field, (None,))[0] != kind:
+        untold = field == "began" and field not in fields
+        if not untold and fields.get(field, (None,))[0] != kind:
             raise InvalidValue("rounds", rounds.dtype, f"fields {', '.join(_ROUND_FIELDS)}")
     steps = len(columns["situation"])
     rounds_only = _holds_rounds_only(rounds, columns["x"])

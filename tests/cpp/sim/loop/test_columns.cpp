@@ -12,8 +12,8 @@
 #include "devlearn/trial_snapshot.hpp"
 
 using devlearn::InvalidValue;
-using devlearn::Record;
 using devlearn::NoiseDef;
+using devlearn::Record;
 using devlearn::RobotDef;
 using devlearn::Trial;
 using devlearn::TrialConfig;
