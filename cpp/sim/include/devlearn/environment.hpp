@@ -48,7 +48,7 @@ class Environment {
   };
   /// All that changes from step to step.
   struct State {
-    Place place;
+    Place place;                      ///< where the robot is
     Observation here;                 ///< what is sensed; `allowed` is told by look()
     SituationId true_situation = -1;  ///< that of the pose; `here` has that of the estimate
     bool arrived = false;             ///< d_g <= goal_radius, of the pose

@@ -73,7 +73,8 @@ struct MoverPath {
 /// from one to the next.
 struct MoverWalk {
   std::uint64_t seed = 0;  ///< of the points
-  Point low, high;         ///< the box's corners of least and greatest x and y
+  Point low;               ///< the box's corner of least x and y
+  Point high;              ///< and that of greatest
   /// From point to point, in [0.1, 1e6] s; at least what the box's diagonal takes at 1 m/s.
   double leg_time = 10.0;
 
