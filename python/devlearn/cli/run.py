@@ -38,7 +38,7 @@ def add_to(verbs: Any) -> None:
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("world", help=f"a world file, or one that ships: {', '.join(_shipped())}")
+    add_world(parser)
     parser.add_argument(
         "--preset", default="paper", metavar="NAME", help="paper (default), step5 or adaptive"
     )
@@ -85,8 +85,10 @@ def add_to(verbs: Any) -> None:
     parser.set_defaults(verb=_main)
 
 
-def _shipped() -> list[str]:
-    return sorted(path.stem for path in (Path(__file__).parents[1] / "worlds").glob("*.json"))
+def add_world(parser: argparse.ArgumentParser) -> None:
+    """Adds the world that a verb is about."""
+    shipped = sorted(path.stem for path in (Path(__file__).parents[1] / "worlds").glob("*.json"))
+    parser.add_argument("world", help=f"a world file, or one that ships: {', '.join(shipped)}")
 
 
 def _main(options: argparse.Namespace) -> int:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .console import say, warn
+from .run import add_world
 
 if TYPE_CHECKING:
     from .._core import World
@@ -50,7 +50,8 @@ def _add_show(tasks: Any) -> None:
     parser = tasks.add_parser(
         "show", help="draw a world", description="Draws a world with robot, sonars and target."
     )
-    _add_world(parser)
+    add_world(parser)
+    _add_radius(parser)
     parser.add_argument(
         "--output", default="world.png", metavar="FILE",
         help="picture to write, .png, .svg or .pdf (default: %(default)s)",
@@ -80,7 +81,8 @@ def _add_check(tasks: Any) -> None:
         "whether it can get to the target, and how many steps that takes; and which gaps are "
         "too narrow for it. Ends with 1 where a robot cannot use the world.",
     )
-    _add_world(parser)
+    add_world(parser)
+    _add_radius(parser)
     parser.set_defaults(verb=_check)
 
 
@@ -264,12 +266,6 @@ def _random(options: argparse.Namespace) -> int:
 
 
 # --- what several take ----------------------------------------------------------------------------
-
-
-def _add_world(parser: Any) -> None:
-    shipped = sorted(path.stem for path in (Path(__file__).parents[1] / "worlds").glob("*.json"))
-    parser.add_argument("world", help=f"a world file, or one that ships: {', '.join(shipped)}")
-    _add_radius(parser)
 
 
 def _add_radius(parser: Any) -> None:
