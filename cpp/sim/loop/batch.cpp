@@ -124,8 +124,8 @@ void Batch::advance(std::size_t i, int motion) {
   Environment& environment = environments_[i];
   Episode& episode = episodes_[i];
   const double estimate_before = environment.state().here.estimate;
-  Environment::Transition made = environment.after(motion);
-  environment.enter(std::move(made.next));
+  const Environment::Transition made = environment.after(motion);
+  environment.enter(made.next);
   const bool arrived = made.outcome.arrived;
   const bool too_long = ++episode.steps >= config_.step_limit && !arrived;
   episode.over = arrived || too_long;

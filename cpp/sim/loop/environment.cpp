@@ -13,6 +13,9 @@
 namespace devlearn {
 namespace {
 
+// Its own: noise never shifts what an agent draws.
+constexpr const char* kStream = "noise";
+
 // A collision is never effective, whatever it gained.
 constexpr double kCollisionSmf = -1.0;
 
@@ -56,22 +59,22 @@ void require_named(const char* quantity, const NamedFunction<Value>& part) {
 
 Environment::Environment(const World& world, const TrialConfig& config, std::uint64_t seed,
                          TrialParts parts)
-    : Environment(std::make_shared<const Fixed>(world, config, std::move(parts)), seed) {}
+    : Environment(std::make_shared<const Fixed>(world, config, std::move(parts)),
+                  Random(seed, kStream)) {}
 
-Environment::Environment(std::shared_ptr<const Fixed> fixed, std::uint64_t seed)
+Environment::Environment(std::shared_ptr<const Fixed> fixed, const Random& noise,
+                         std::int64_t steps)
     : fixed_(std::move(fixed)),
-      state_{{{}, {}, Random(seed, "noise"), 0}, {}, -1, false, {}, Random(seed, "noise")},
-      allowed_(std::make_unique<bool[]>(static_cast<std::size_t>(config().motion_count()))) {
-  const Pose& start = world().def().start;
-  robot().require_start();
-  state_ = sensed({start, start, state_.noise, 0});
-}
+      state_(sensed({world().def().start, world().def().start, noise, steps})),
+      allowed_(std::make_unique<bool[]>(static_cast<std::size_t>(config().motion_count()))) {}
 
 Environment::~Environment() = default;
 Environment::Environment(Environment&&) noexcept = default;
 Environment& Environment::operator=(Environment&&) noexcept = default;
 
-Environment Environment::twin(std::uint64_t seed) const { return Environment(fixed_, seed); }
+Environment Environment::twin(std::uint64_t seed) const {
+  return Environment(fixed_, Random(seed, kStream));
+}
 
 Environment Environment::in(const World& other) const {
   const WorldDef &was = world().def(), &is = other.def();
@@ -79,10 +82,8 @@ Environment Environment::in(const World& other) const {
     throw InvalidValue("world.arena", text_of_arena(is),
                        text_of_arena(was) + ", the arena as it was");
   }
-  Environment there(other, config(), 0, parts());
-  const Pose& start = is.start;
-  there.enter(there.sensed({start, start, state_.noise, state_.place.steps}));
-  return there;
+  return Environment(std::make_shared<const Fixed>(other, config(), parts()), noise_to_come(),
+                     state_.place.steps);
 }
 
 Environment::Fixed::Fixed(const World& world, const TrialConfig& given, TrialParts own)
@@ -91,6 +92,7 @@ Environment::Fixed::Fixed(const World& world, const TrialConfig& given, TrialPar
       grid(grid_over(world, config)),
       parts(std::move(own)) {
   require_parts();
+  robot.require_start();
 }
 
 void Environment::Fixed::require_parts() const {
@@ -121,21 +123,21 @@ const Observation& Environment::look() {
 }
 
 Environment::Transition Environment::after(int motion) const {
-  Random noise = state_.noise;
+  Random noise = noise_to_come();
   // -> motion (Eq. 1)
   const Robot::Move made = moved(motion, noise);
+  const Pose estimate = config().noise.of_odometry() ? reckoned(made.pose, noise) : made.pose;
   // world -> sense -> situation, and its SEF (Eq. 6)
-  const Pose estimate = reckoned(made.pose, noise);
-  State next = sensed({made.pose, estimate, noise, state_.place.steps + 1});
+  Transition transition{sensed({made.pose, estimate, noise, state_.place.steps + 1}), 0.0, {}};
   // -> evaluation (Eq. 8)
-  const double smf = next.here.sef - state_.here.sef;
-  const Outcome outcome = outcome_of(next, smf, made.collided);
-  return {std::move(next), smf, outcome};
+  transition.smf = transition.next.here.sef - state_.here.sef;
+  transition.outcome = outcome_of(transition.next, transition.smf, made.collided);
+  return transition;
 }
 
 Environment::State Environment::standing(const Pose& pose) const {
   robot().require_free(pose, time());
-  return standing({pose, pose, state_.noise, state_.place.steps});
+  return standing({pose, pose, noise_to_come(), state_.place.steps});
 }
 
 Environment::State Environment::standing(const Place& place) const {
@@ -162,7 +164,6 @@ Robot::Move Environment::moved(int motion, Random& noise) const {
 // The pose that odometry makes of the way to another, seen from where it believed the robot to be.
 Pose Environment::reckoned(const Pose& to, Random& noise) const {
   const NoiseDef& def = config().noise;
-  if (!def.of_odometry()) return to;
   const auto& [from, believed, stream, steps] = state_.place;
   const double turned = def.odometry_turn * noise.normal();
   const double driven = 1.0 + def.odometry_drive * noise.normal();
@@ -177,17 +178,12 @@ Pose Environment::reckoned(const Pose& to, Random& noise) const {
 
 // What is sensed at a place, and its situation and SEF.
 Environment::State Environment::sensed(const Place& place) const {
-  State state{place, {}, -1, false, {}, place.noise};
-  const bool by_sonar = config().clearance_source == ClearanceSource::kSonar;
-  if (by_sonar || config().noise.of_sonars()) state.echoes = heard(place, state.noise);
+  State state{place, {}, -1, false};
   const auto& [pose, estimate, stream, steps] = place;
   Observation& here = state.here;
   here.pose = estimate;
   here.goal_distance = distance_to_target(estimate);
-  // d_o of Eq. 6
-  here.clearance =
-      by_sonar ? *std::min_element(state.echoes.begin(), state.echoes.end()) + config().robot.radius
-               : world().clearance({pose.x, pose.y}, config().walls_count, time_of(place));
+  here.clearance = clearance(place);
   const Senses senses{estimate, here.goal_distance, here.clearance};
   here.situation = state.true_situation = situation(senses);
   here.sef = sef(senses, here.situation);
@@ -204,32 +200,46 @@ Environment::State Environment::sensed(const Place& place) const {
   return state;
 }
 
-// Echoes as the sonars tell them.
-std::vector<double> Environment::heard(const Place& place, Random& noise) const {
+// d_o of Eq. 6.
+double Environment::clearance(const Place& place) const {
+  const auto& [pose, estimate, stream, steps] = place;
+  if (config().clearance_source != ClearanceSource::kSonar) {
+    return world().clearance({pose.x, pose.y}, config().walls_count, time_of(place));
+  }
+  const std::vector<double> echoes = heard(place);
+  return *std::min_element(echoes.begin(), echoes.end()) + config().robot.radius;
+}
+
+// Where sonars err, they do so by a stream that one draw begins: what they hear is a function of
+// the place.
+void Environment::hear(const Place& place, double* echoes) const {
   const NoiseDef& def = config().noise;
   const double time = time_of(place);
-  if (!def.of_sonars()) return robot().sonar(place.pose, time);
-  const double range = config().robot.sonar_range;
-  std::vector<double> echoes(static_cast<std::size_t>(config().robot.sonar_count)), aside(echoes);
+  if (!def.of_sonars()) return robot().sonar(place.pose, echoes, time);
+  Random noise(Random(place.noise).next(), "sonars");
+  const auto count = static_cast<std::size_t>(config().robot.sonar_count);
+  std::vector<double> aside(count);
   for (double& angle : aside) angle = def.bearing * noise.normal();
-  robot().sonar(place.pose, aside.data(), echoes.data(), time);
-  for (double& echo : echoes) {
+  robot().sonar(place.pose, aside.data(), echoes, time);
+  const double range = config().robot.sonar_range;
+  std::for_each(echoes, echoes + count, [&](double& echo) {
     const double off = def.echo * noise.normal();
     const bool lost = noise.uniform() < def.dropout;
     echo = lost || echo >= range ? range : std::clamp(echo + off, 0.0, range);
-  }
-  return echoes;
+  });
 }
 
-void Environment::echoes(double* echoes) const {
-  if (state_.echoes.empty()) return robot().sonar(pose(), echoes, time());
-  std::copy(state_.echoes.begin(), state_.echoes.end(), echoes);
-}
-
-std::vector<double> Environment::echoes() const {
+std::vector<double> Environment::heard(const Place& place) const {
   std::vector<double> echoes(static_cast<std::size_t>(config().robot.sonar_count));
-  this->echoes(echoes.data());
+  hear(place, echoes.data());
   return echoes;
+}
+
+// The stream, after what it began for the sonars here.
+Random Environment::noise_to_come() const noexcept {
+  Random noise = state_.place.noise;
+  if (config().noise.of_sonars()) noise.next();
+  return noise;
 }
 
 double Environment::distance_to_target(const Pose& pose) const noexcept {

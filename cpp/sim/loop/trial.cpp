@@ -116,13 +116,13 @@ Step Trial::tick() {
   // -> choice (Eq. 5 and 7), of what the robot can make
   const Choice choice = chosen();
   // -> motion (Eq. 1) -> sense -> situation -> evaluation (Eq. 6 and 8)
-  Environment::Transition made = after(choice.motion);
+  const Environment::Transition made = after(choice.motion);
   // -> development (Eq. 9-17)
   const Development development = agent_->observe(made.outcome);
   // -> record
   round_ = std::max(round_, 1);
   const Step step = row(round_, situation, true_situation, choice, made, development);
-  environment_.enter(std::move(made.next));
+  environment_.enter(made.next);
   return step;
 }
 
@@ -180,10 +180,10 @@ void Trial::resume(const Environment::Place& place, std::int32_t round, bool rou
 // A new round, from a pose.
 void Trial::put(const Pose& pose) {
   require_count("round", std::int64_t{round_} + 1, 1, kLastRound);
-  Environment::State there = environment_.standing(pose);
+  const Environment::State there = environment_.standing(pose);
   close_round(false);
   open_round();
-  environment_.enter(std::move(there));
+  environment_.enter(there);
   ++round_;
 }
 

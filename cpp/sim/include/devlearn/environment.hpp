@@ -42,7 +42,7 @@ class Environment {
   struct Place {
     Pose pose;      ///< its own [m, m, degrees]
     Pose estimate;  ///< the pose that odometry makes of its way; without noise, the same
-    Random noise;   ///< from which what is sensed, and then the next motion, draws
+    Random noise;   ///< from which what is sensed here, and the next motion, are spoiled
     /// So many sample times have passed, over all rounds.
     std::int64_t steps = 0;
   };
@@ -52,8 +52,6 @@ class Environment {
     Observation here;                 ///< what is sensed; `allowed` is told by look()
     SituationId true_situation = -1;  ///< that of the pose; `here` has that of the estimate
     bool arrived = false;             ///< d_g <= goal_radius, of the pose
-    std::vector<double> echoes;       ///< as heard, where sonars serve or err; else empty
-    Random noise;                     ///< after what was sensed
   };
 
   /// What came of a motion.
@@ -72,9 +70,9 @@ class Environment {
   /// Whether it is at the target: d_g <= goal_radius.
   bool arrived() const noexcept { return state_.arrived; }
   /// What its sonars hear: sonar_count values [m], as Robot::sonar has them, spoiled by noise.
-  std::vector<double> echoes() const;
+  std::vector<double> echoes() const { return heard(state_.place); }
   /// The same, filled in; `echoes` has room for sonar_count values.
-  void echoes(double* echoes) const;
+  void echoes(double* echoes) const { hear(state_.place, echoes); }
 
   /// What an agent chooses by: what is sensed here, and what the robot can make of its motions. It
   /// is valid until the next call.
@@ -89,7 +87,7 @@ class Environment {
   /// Likewise, in the midst of a way.
   State standing(const Place& place) const;
   /// Goes on from a state of this environment, or of a twin.
-  void enter(State state) noexcept { state_ = std::move(state); }
+  void enter(const State& state) noexcept { state_ = state; }
 
   ///@{
   /// What it was made of.
@@ -113,14 +111,18 @@ class Environment {
     TrialParts parts;
   };
 
-  Environment(std::shared_ptr<const Fixed> fixed, std::uint64_t seed);
+  // At the start.
+  Environment(std::shared_ptr<const Fixed> fixed, const Random& noise, std::int64_t steps = 0);
   double time_of(const Place& place) const noexcept {
     return static_cast<double>(place.steps) * config().robot.sample_time;
   }
   Robot::Move moved(int motion, Random& noise) const;
   Pose reckoned(const Pose& pose, Random& noise) const;
   State sensed(const Place& place) const;
-  std::vector<double> heard(const Place& place, Random& noise) const;
+  double clearance(const Place& place) const;
+  void hear(const Place& place, double* echoes) const;
+  std::vector<double> heard(const Place& place) const;
+  Random noise_to_come() const noexcept;
   double distance_to_target(const Pose& pose) const noexcept;
   SituationId situation(const Senses& senses) const;
   double sef(const Senses& senses, SituationId situation) const;

@@ -26,7 +26,8 @@ TrialConfig noisy() {
 bool same(const Environment::State& a, const Environment::State& b) {
   return a.place.pose == b.place.pose && a.place.estimate == b.place.estimate &&
          a.here.situation == b.here.situation && a.true_situation == b.true_situation &&
-         a.here.sef == b.here.sef && a.echoes == b.echoes && a.noise.state() == b.noise.state();
+         a.here.sef == b.here.sef && a.here.clearance == b.here.clearance &&
+         a.place.noise.state() == b.place.noise.state();
 }
 
 }  // namespace
