@@ -20,6 +20,7 @@
 #include "devlearn/learner.hpp"
 #include "devlearn/random.hpp"
 #include "golden_text.hpp"
+#include "many.hpp"
 #include "refusal.hpp"
 
 namespace devlearn {
@@ -495,7 +496,7 @@ TEST_CASE("Proofs I-IV hold after every one of a million random updates") {
         config.on_negative = on_negative;
         config.when_exhausted = when_exhausted;
         // Many short lives: what is known as ineffective to a wanderer remains so.
-        for (int life = 0; life < 200; ++life) {
+        for (int life = 0; life < many(200); ++life) {
           History(config, ++seed, met, broken).run(life % 10 == 0 ? 1350 : 150);
         }
       }
@@ -514,10 +515,10 @@ TEST_CASE("Proofs I-IV hold after every one of a million random updates") {
   CHECK(broken.reward_lowers == 0);
   CHECK(broken.greater_reward == 0);
 
-  CHECK(met.updates >= 1000000);
-  CHECK(met.lowest_d >= 1000);
-  CHECK(met.sole >= 1000);
-  CHECK(met.reduction >= 1000);
+  CHECK(met.updates >= many(1'000'000));
+  CHECK(met.lowest_d >= many(1000));
+  CHECK(met.sole >= many(1000));
+  CHECK(met.reduction >= many(1000));
   CHECK(met.abandonment >= 1000);
   CHECK(met.retry >= 1000);
   CHECK(met.extension >= 1000);

@@ -11,6 +11,7 @@
 #include "devlearn/robot.hpp"
 #include "devlearn/shortest_path.hpp"
 #include "devlearn/shortest_path_agent.hpp"
+#include "many.hpp"
 #include "sim/world/random_movers.hpp"
 
 using namespace devlearn;
@@ -253,7 +254,7 @@ TEST_CASE("Whatever moves around it, the body stays in the arena and out of what
   Random random(4, "crowds");
   long steps = 0, collided = 0, pinned = 0;
   double deepest = 0.0, widest = 0.0;
-  for (int n = 0; n < 150; ++n) {
+  for (int n = 0; n < many(150); ++n) {
     RobotDef def;
     def.radius = between(random, 0.03, 0.15);
     def.speed = between(random, 0.02, 0.2);
@@ -288,8 +289,8 @@ TEST_CASE("Whatever moves around it, the body stays in the arena and out of what
   MESSAGE(steps << " steps, " << collided << " with contact, " << pinned
                 << " pinned; deepest in what stands still " << deepest
                 << " m; further than a step and the fastest mover by " << widest << " m");
-  CHECK(steps > 30000);
-  CHECK(pinned > 100);
+  CHECK(steps > many(30'000));
+  CHECK(pinned > many(100));
   CHECK(widest <= 0.05 + 1e-9);
 }
 

@@ -7,6 +7,7 @@
 #include "devlearn/random.hpp"
 #include "devlearn/robot.hpp"
 #include "devlearn/trial.hpp"
+#include "many.hpp"
 #include "sim/body/plain.hpp"
 #include "sim/world/random_worlds.hpp"
 
@@ -25,7 +26,7 @@ bool same(const Robot::Move& a, const Robot::Move& b) {
 TEST_CASE("Clearances and surroundings are those of a look at everything, to the bit") {
   Random random(11, "plain clearance");
   long differ = 0, inside = 0, free = 0;
-  for (int n = 0; n < 100; ++n) {
+  for (int n = 0; n < many(100); ++n) {
     const World world = n % 10 == 0
                             ? pebbles(random, 20, 4.0)
                             : random_world(random, 1 + static_cast<int>(random.index(60)), 4.0);
@@ -53,8 +54,8 @@ TEST_CASE("Clearances and surroundings are those of a look at everything, to the
     }
   }
   CHECK(differ == 0);
-  CHECK(inside > 1000);
-  CHECK(free > 1000);
+  CHECK(inside > many(1000));
+  CHECK(free > many(1000));
 }
 
 namespace {
@@ -92,15 +93,15 @@ Compared compare_steps(Random& random, long steps, int each, const Worlds& world
 TEST_CASE("Steps are those of Box2D's own world wherever they are not free, to the bit") {
   Random random(12, "plain steps");
   const Compared compared = compare_steps(
-      random, 800'000, 4000, [](Random& chance) { return random_world(chance, 15, 4.0); });
+      random, many(800'000), 4000, [](Random& chance) { return random_world(chance, 15, 4.0); });
   CHECK(compared.different == 0);
   CHECK(compared.contacts * 20 >= compared.steps);
 }
 
 TEST_CASE("Steps among heaps of pebbles, too, where several are touched at once") {
   Random random(14, "plain pebbles");
-  const Compared compared =
-      compare_steps(random, 8'000, 500, [](Random& chance) { return pebbles(chance, 20, 4.0); });
+  const Compared compared = compare_steps(random, many(8'000), 500,
+                                          [](Random& chance) { return pebbles(chance, 20, 4.0); });
   CHECK(compared.different == 0);
   CHECK(compared.contacts * 20 >= compared.steps);
 }
@@ -109,7 +110,7 @@ TEST_CASE("Histories of learning are those of the plain loop, to the bit") {
   constexpr int kSteps = 5000;
   Random random(13, "plain histories");
   long steps = 0, contacts = 0;
-  for (int n = 0; steps < 200'000; ++n) {
+  for (int n = 0; steps < many(200'000); ++n) {
     TrialConfig config = n % 2 == 0 ? TrialConfig::paper() : TrialConfig::step5();
     const World world = random_world(random, 12, 3.0);
     const Pose& start = world.def().start;

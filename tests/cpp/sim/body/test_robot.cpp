@@ -11,6 +11,7 @@
 #include "devlearn/math.hpp"
 #include "devlearn/random.hpp"
 #include "devlearn/robot.hpp"
+#include "many.hpp"
 #include "sim/body/plain.hpp"
 #include "sim/world/random_worlds.hpp"
 
@@ -287,7 +288,7 @@ TEST_CASE("Nothing gets out of a room of thin walls, however small and fast it i
   Random random(7, "thin rooms");
   long steps = 0, contacts = 0, out = 0;
   double deepest = 0.0;
-  for (int n = 0; n < 400; ++n) {
+  for (int n = 0; n < many(400); ++n) {
     // Spikes and all, in front of more thin walls.
     std::vector<Point> room = random_ring(random, {2.5, 2.5}, 3 + random.index(6), 0.1, 0.6);
     WorldDef def;
@@ -334,7 +335,7 @@ TEST_CASE("Nothing gets out of a room of thin walls, however small and fast it i
   MESSAGE(steps << " steps, " << contacts << " with contact, deepest " << deepest << " m");
   CHECK(out == 0);
   CHECK(deepest <= 0.005);
-  CHECK(contacts > 20'000);
+  CHECK(contacts > many(20'000));
 }
 
 TEST_CASE("A step is a pure function of world, pose and motion") {
@@ -371,7 +372,7 @@ TEST_CASE("A step is a pure function of world, pose and motion") {
 TEST_CASE("Sonars hear what closed forms say on random worlds") {
   Random random(4, "sonars");
   SonarCheck anywhere, touching;
-  for (int n = 0; n < 100; ++n) {
+  for (int n = 0; n < many(100); ++n) {
     RobotDef def;
     def.sonar_count = 1 + static_cast<int>(random.index(24));
     def.sonar_fov = between(random, 0.0, 360.0);
@@ -392,10 +393,10 @@ TEST_CASE("Sonars hear what closed forms say on random worlds") {
     MESSAGE(check->rays << " rays, " << check->wide << " past a corner, " << check->touching
                         << " touching, off by at most " << check->worst << " m");
     CHECK(check->wrong == 0);
-    CHECK(check->rays > 20000);
+    CHECK(check->rays > many(20'000));
     CHECK(check->wide * 100 < check->rays);
   }
-  CHECK(touching.touching > 100);
+  CHECK(touching.touching > many(100));
 }
 
 TEST_CASE("A sonar hears what touches the rim or reaches into it as nearness itself") {

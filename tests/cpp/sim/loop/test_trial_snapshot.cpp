@@ -591,7 +591,8 @@ TEST_CASE("functions that are missing, others, or too many are refused by the na
 
 TEST_CASE("a table of SEFs is saved whole") {
   TrialParts parts;
-  for (SituationId id = 0; id < Trial(shipped("paper")).grid().count(); ++id) {
+  const SituationId count = Trial(shipped("paper")).grid().count();
+  for (SituationId id = 0; id < count; ++id) {
     parts.sef_table.push_back(0.1 * static_cast<double>(id));
   }
   Trial trial(shipped("paper"), {}, 3, parts);

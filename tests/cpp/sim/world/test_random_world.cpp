@@ -13,6 +13,7 @@
 #include "devlearn/robot.hpp"
 #include "devlearn/shortest_path.hpp"
 #include "devlearn/world.hpp"
+#include "many.hpp"
 #include "world/fine_direction.hpp"
 #include "world/surfaces.hpp"
 
@@ -71,7 +72,7 @@ std::size_t count(const std::string& kind, std::uint64_t seed, double difficulty
 TEST_CASE("In every random world the robot gets from the start to the target") {
   for (const std::string& kind : kKinds) {
     for (const double difficulty : {0.0, 0.5, 1.0}) {
-      for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      for (std::uint64_t seed = 1; seed <= many(40); ++seed) {
         CAPTURE(kind);
         CAPTURE(difficulty);
         CAPTURE(seed);
