@@ -1,11 +1,13 @@
 """Draws the pictures in this folder: .venv/bin/python docs/images/draw.py"""
 
 import io
+import tempfile
 from pathlib import Path
 
 import devlearn
 import matplotlib
 import matplotlib.pyplot as plt
+import numpy as np
 from devlearn import plots
 from devlearn.plots.panels import shared_legend
 from devlearn.plots.style import BLACK
@@ -48,6 +50,75 @@ def draw_kinds():
         save(figure, f"kind_{kind}.png", 110)
 
 
+def map_of_a_flat():
+    """Shades of 160 x 140 cells of 5 cm, as a robot that drove through four rooms draws them."""
+    shades = np.full((140, 160), 205, dtype=np.uint8)
+    shades[10:130, 10:150] = 254
+    walls = np.zeros(shades.shape, dtype=bool)
+    for rows, columns in (
+        ((10, 13), (10, 150)), ((127, 130), (10, 150)), ((10, 130), (10, 13)),
+        ((10, 130), (147, 150)), ((62, 65), (10, 150)), ((10, 65), (70, 73)),
+        ((65, 130), (98, 101)),
+    ):  # fmt: skip
+        walls[slice(*rows), slice(*columns)] = True
+    for rows, columns in (((62, 65), (24, 40)), ((62, 65), (120, 136)), ((95, 113), (98, 101))):
+        walls[slice(*rows), slice(*columns)] = False
+    furniture = np.zeros(shades.shape, dtype=bool)
+    for rows, columns in (
+        ((20, 38), (50, 62)), ((13, 21), (90, 125)), ((36, 46), (100, 112)), ((86, 104), (40, 62)),
+        ((118, 127), (13, 45)), ((80, 92), (118, 130)), ((40, 50), (13, 22)),
+    ):  # fmt: skip
+        furniture[slice(*rows), slice(*columns)] = True
+    solid = walls | furniture
+    around = solid.copy()
+    for axis in (0, 1):
+        around |= np.roll(solid, 1, axis) | np.roll(solid, -1, axis)
+    noise = np.random.default_rng(1).random(shades.shape) < 0.15
+    shades[solid | (around & noise)] = 0
+    shades[:, :10] = shades[:, 150:] = shades[:10] = shades[130:] = 205
+    # Nobody has looked through the walls, nor into what stands about.
+    inside = furniture & np.roll(furniture, 3, 0) & np.roll(furniture, -3, 0)
+    shades[inside & np.roll(furniture, 3, 1) & np.roll(furniture, -3, 1)] = 205
+    return shades
+
+
+def draw_map():
+    """A map's image, the world made of it, and a way learned there, for docs/maps.md."""
+    shades = map_of_a_flat()
+    with tempfile.TemporaryDirectory() as folder:
+        Image.fromarray(shades).save(Path(folder) / "flat.pgm")
+        yaml = Path(folder) / "flat.yaml"
+        yaml.write_text(
+            "image: flat.pgm\nresolution: 0.05\norigin: [-4.0, -3.5, 0.0]\nnegate: 0\n"
+            "occupied_thresh: 0.65\nfree_thresh: 0.196\n"
+        )
+        world = devlearn.World.from_ros_map(
+            yaml, start=(-2.9, 2.2, -90), target=(2.6, -2.2), unknown="border"
+        )
+    config = devlearn.TrialConfig.adaptive()
+    paths = devlearn.Trial(world, config, seed=1).path_learning(100)
+    best = int(np.argmin(paths.rounds["steps"]))
+    shortest = devlearn.shortest_path(devlearn.Robot(world)).steps
+    print(f"flat: rounds of {paths.rounds['steps'].tolist()} steps, shortest {shortest}")
+
+    figure, axes = plt.subplots(1, 3, figsize=(9.0, 3.1), layout="constrained", sharey=True)
+    axes[0].imshow(shades, cmap="gray", vmin=0, vmax=255, extent=(-4, 4, -3.5, 3.5))
+    axes[0].set(xlabel="x [m]", ylabel="y [m]", title="the map's image")
+    plots.plot_world(world, ax=axes[1], sonar=False, legend=False)
+    axes[1].set(ylabel="", title=f"the world: {sum(map(corners, world.obstacles))} corners")
+    plots.plot_world(world, ax=axes[2], sonar=False, legend=False)
+    plots.plot_trajectory(paths, ax=axes[2], entry=best, by=None, color=BLACK, world=False)
+    axes[2].set(
+        ylabel="",
+        title=f"round {best + 1}: {paths.rounds['steps'][best]} steps, shortest {shortest}",
+    )
+    save(figure, "map.png", 120)
+
+
+def corners(polygon):
+    return len(polygon.corners) + sum(map(len, polygon.holes))
+
+
 def draw_readme():
     """From wandering to a path of its own: the head of the README."""
     trial = devlearn.Trial(devlearn.World.load("paper"), seed=0)
@@ -84,4 +155,5 @@ if __name__ == "__main__":
     with matplotlib.rc_context({**plots.STYLE, "axes.titlesize": 9}):
         draw_worlds()
         draw_kinds()
+        draw_map()
         draw_readme()

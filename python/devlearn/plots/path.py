@@ -18,6 +18,8 @@ from .style import (
     GREY,
     INK,
     ORANGE,
+    SKY,
+    VERMILLION,
     colorbar_beside,
     dark_cividis,
     in_rows,
@@ -41,6 +43,12 @@ if TYPE_CHECKING:
 # Told apart by width and marker, not by colour alone; drawn in this order.
 _KINDS: dict[Kind, tuple[str, dict[str, Any]]] = {
     Kind.UNSTATED: ("no reason given", {"color": GREY, "linewidth": 0.8}),
+    Kind.HELD: ("held", {"color": SKY, "linewidth": 1.8}),
+    Kind.HABIT: ("habit", {"color": BLUE, "linewidth": 1.1}),
+    Kind.DEVIATION: (
+        "deviation",
+        {"color": VERMILLION, "linewidth": 1.4, "marker": "^", "markersize": 2.6},
+    ),
     Kind.EXPLORE: (
         "explore",
         {"color": ORANGE, "linewidth": 1.4, "marker": "o", "markersize": 2.2},
@@ -69,8 +77,8 @@ def plot_trajectory(
     """Draw the path of one round over its world: Figs. 6 and 9 to 12.
 
     ``entry`` is the index in ``record.rounds``; the title counts from 1, as rounds are asked for,
-    and gives the trial's number of the round where that is another. ``by="kind"`` tells explored,
-    exploited and exhausted steps apart, each marker standing where the choice was made, with their
+    and gives the trial's number of the round where that is another. ``by="kind"`` tells steps
+    apart by why their motion was chosen, each marker standing where the choice was made, with their
     numbers in the legend; ``by="time"`` colours by step; ``None`` draws one line in ``color``,
     named ``label``. ``world=False`` adds the path to what is already drawn. Movers are drawn where
     they were when the entry began.
@@ -81,7 +89,9 @@ def plot_trajectory(
     place = record.world
     bar = legend and by == "time" and len(path) > 1
     kinds = record.kind[record.steps_of(entry)]
-    rows = 2 if by == "kind" and len(np.unique(kinds)) > 1 else 1
+    met = len(np.unique(kinds)) if by == "kind" else 1
+    columns = min(met, 3)
+    rows = -(-(met + 2) // columns) if met > 1 else 1  # with robot and target
     _, steps, arrived, _ = record.rounds[entry]
     name = round_name(record, entry)
     told = name + ("\n" if name.endswith(")") else ": ") + f"{thousands(steps)} steps"
@@ -134,8 +144,7 @@ def plot_trajectory(
     if legend and (world or by == "kind"):
         marks = named_marks(ax)
         if len(handles) > 1:
-            upper, lower = handles[:3], [*handles[3:], *marks]
-            legend_below(ax, in_rows(upper, lower), columns=len(upper), length=1.3)
+            legend_below(ax, in_rows([*handles, *marks], columns), columns=columns, length=1.3)
         else:
             legend_below(ax, [*handles, *marks])
     if title:

@@ -112,9 +112,9 @@ def axes_of_height(ax: Axes | None, height: float) -> Axes:
     return new_figure(height, layout="constrained").add_subplot()
 
 
-def in_rows(upper: Sequence[Any], lower: Sequence[Any]) -> list[Any]:
-    """Handles in the order in which a legend of ``len(upper)`` columns shows them as two rows."""
-    return [row[i] for i in range(len(upper)) for row in (upper, lower) if i < len(row)]
+def in_rows(handles: Sequence[Any], columns: int) -> list[Any]:
+    """Handles in the order in which a legend of so many columns shows them row by row."""
+    return [handle for i in range(columns) for handle in handles[i::columns]]
 
 
 def legend_below(

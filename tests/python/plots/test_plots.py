@@ -510,6 +510,20 @@ def test_the_legend_gives_the_number_of_steps_of_each_kind(free, ax):
     assert shown == kinds | {"robot at start", "target"}
 
 
+def test_every_step_is_drawn_whatever_its_kind():
+    record = hand_made([NO_CHANGE] * 14)
+    record.kind[:] = sorted(map(int, Kind.__members__.values())) * 2
+    ax = plots.plot_trajectory(record)
+    lines = [line for line in ax.get_lines() if str(line.get_gid()).startswith("path-")]
+    assert sum(len(line.get_xdata()) for line in lines) == 3 * 14
+    assert len({(line.get_color(), line.get_linewidth()) for line in lines}) == len(
+        Kind.__members__
+    )
+    shown = {text.get_text() for text in ax.get_legend().get_texts()}
+    assert {f"{line.get_label()}" for line in lines} | {"robot at start", "target"} == shown
+    assert sum(text.endswith(" (2)") for text in shown) == len(Kind.__members__)
+
+
 def test_kinds_differ_in_more_than_colour(free, ax):
     plots.plot_trajectory(free, ax=ax)
     lines = [by_gid(ax, f"path-{name}") for name in ("explore", "exploit", "exhausted")]
