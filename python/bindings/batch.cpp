@@ -228,6 +228,15 @@ void bind_batch(py::module_& m) {
           },
           "Where the robots truly are, whatever they sense of it: a copy, (count, 3) [m, m, "
           "degrees].")
+      .def(
+          "times",
+          [](const Batch& self) {
+            std::vector<double> values;
+            for (int i = 0; i < self.count(); ++i) values.push_back(self.environment(i).time());
+            return moved_array<double>(std::move(values), {self.count()});
+          },
+          "Their worlds' time, by which movers move: a copy, (count,) [s]. Episodes do not set it "
+          "back, seeds do.")
       .def_property_readonly(
           "world", [](const Batch& self) { return self.environment(0).world(); }, "The World.")
       .def_property_readonly(

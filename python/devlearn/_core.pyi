@@ -3803,6 +3803,10 @@ class Batch:
         """
         One step of every environment: motions[i], an index of M, in environment i. One that the robot's safety layer would not allow is made, too. Raises InvalidValue, also where autoreset is disabled and an episode has ended; then nothing was stepped.
         """
+    def times(self) -> numpy.ndarray:
+        """
+        Their worlds' time, by which movers move: a copy, (count,) [s]. Episodes do not set it back, seeds do.
+        """
     @property
     def begun(self) -> numpy.ndarray:
         """

@@ -140,6 +140,8 @@ def _told(world: World) -> Iterator[str]:
     yield f"world {world.name or 'without a name'}: {world.width:g} m x {world.height:g} m"
     yield f"arena: {_point((x, y))} to {_point((x + world.width, y + world.height))}"
     yield f"obstacles: {len(world.obstacles)}"
+    if world.movers:
+        yield f"movers: {len(world.movers)}"
     yield f"start: {_point(world.start)}, heading {world.start.heading:g} degrees"
     yield f"target: {_point(world.target)}"
 

@@ -173,7 +173,8 @@ class Navigate(gymnasium.Env[Any, Any]):
     def _frame(self) -> npt.NDArray[np.uint8]:
         if self._picture is None:
             self._picture = picture_of(self._view)
-        return self._picture.frame(self._view.batch.poses()[0], self._way)
+        batch = self._view.batch
+        return self._picture.frame(batch.poses()[0], self._way, batch.times()[0])
 
     def _show(self) -> None:
         from ..plots.picture import Window

@@ -133,7 +133,8 @@ class NavigateVector(VectorEnv[Any, Any, Any]):
             return None
         if self._picture is None:
             self._picture = picture_of(self._view)
-        return tuple(self._picture.frame(pose) for pose in self._view.batch.poses())
+        batch, frame = self._view.batch, self._picture.frame
+        return tuple(frame(pose, time=time) for pose, time in zip(batch.poses(), batch.times()))
 
 
 def _known_mode(given: str | AutoresetMode) -> AutoresetMode:

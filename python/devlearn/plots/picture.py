@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from .._core import RobotDef, World
 from .style import GREEN, INK, STYLE
-from .world import draw_arena, draw_obstacles, draw_target
+from .world import draw_arena, draw_obstacles, draw_target, move_to
 
 _DPI = 100
 _LEAST, _MOST = 64, 2000  # heights of pictures of arenas that are far from square [pixels]
@@ -36,7 +36,9 @@ class Picture:
             self._axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
             self._axes.set_axis_off()
             draw_arena(self._axes, world)
-            draw_obstacles(self._axes, world)
+            self._movers = draw_obstacles(self._axes, world)
+            for mover in self._movers:
+                mover.set_animated(True)
             draw_target(self._axes, world)
             (self._way,) = self._axes.plot([], [], color=INK, linewidth=0.8, animated=True)
             self._body = patches.Circle(
@@ -45,12 +47,18 @@ class Picture:
             self._axes.add_patch(self._body)
             (self._ahead,) = self._axes.plot([], [], color="white", linewidth=2.0, animated=True)
             self._canvas.draw()
+        self._world = world
         self._still = self._canvas.copy_from_bbox(figure.bbox)
 
     def frame(
-        self, pose: Sequence[float], way: Sequence[Sequence[float]] = ()
+        self,
+        pose: Sequence[float],
+        way: Sequence[Sequence[float]] = (),
+        time: float = 0.0,
     ) -> npt.NDArray[np.uint8]:
         """The robot at a pose (x, y [m], heading [degrees]), and the places it came by.
+
+        Movers are where they are at ``time`` [s].
 
         (height, width, 3), red, green and blue.
         """
@@ -59,8 +67,10 @@ class Picture:
         self._body.center = (x, y)
         self._ahead.set_data([x, x + radius * math.cos(angle)], [y, y + radius * math.sin(angle)])
         self._way.set_data([place[0] for place in way], [place[1] for place in way])
+        for patch, mover in zip(self._movers, self._world.movers_at(time)):
+            move_to(patch, mover)
         self._canvas.restore_region(self._still)
-        for artist in (self._way, self._body, self._ahead):
+        for artist in (*self._movers, self._way, self._body, self._ahead):
             self._axes.draw_artist(artist)
         return np.asarray(self._canvas.buffer_rgba())[..., :3].copy()
 

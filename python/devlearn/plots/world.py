@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -16,10 +16,23 @@ from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
 from .._core import Circle, MoverPath, Polygon, Polyline, Rectangle, Robot, RobotDef, World
 from ..analysis.fields import Source, config_of, world_of
-from .style import BLUE, COLUMN, GREEN, INK, OBSTACLE, VERMILLION, legend_below, new_figure, styled
+from .style import (
+    BLUE,
+    COLUMN,
+    GREEN,
+    INK,
+    OBSTACLE,
+    VERMILLION,
+    in_rows,
+    legend_below,
+    new_figure,
+    styled,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+_Obstacle = Union[Circle, Rectangle, Polygon, Polyline]
 
 AT_START = "robot at start"
 DASHES = (0, (4, 2))
@@ -47,42 +60,29 @@ def arena_axes(
     return figure.add_axes((left / COLUMN, bottom / total, width / COLUMN, height / total))
 
 
-def draw_obstacles(ax: Axes, world: World, time: float = 0.0, **how: Any) -> None:
+def draw_obstacles(ax: Axes, world: World, time: float = 0.0, **how: Any) -> list[patches.Patch]:
     """The obstacles as patches, drawn as ``how`` says; movers where they are at ``time`` [s].
 
-    Dashed is where the centre of each mover goes: its path, or the box of its walk.
+    Dashed is where the centre of each mover goes: its path, or the box of its walk. Returns the
+    patches of the movers.
     """
     how = {"facecolor": OBSTACLE, "edgecolor": BLUE, "linewidth": 0.7, "zorder": 1.0, **how}
+    drawn = [_patch_of(obstacle, how) for obstacle in world.obstacles]
+    moving = [_patch_of(mover, how) for mover in world.movers_at(time)]
     # Each by itself can be told apart in an SVG; thousands would take minutes.
-    obstacles = [*world.obstacles, *world.movers_at(time)]
-    many = len(obstacles) > 1000
-    drawn: list[patches.Patch] = []
+    many = len(drawn) > 1000
+    alone = {"mover": moving} if many else {"obstacle": drawn, "mover": moving}
+    # What lies beyond the walls, where a world lets an obstacle reach into them, is not shown.
     arena = patches.Rectangle(world.origin, world.width, world.height, transform=ax.transData)
-    for i, obstacle in enumerate(obstacles):
-        patch: patches.Patch
-        if isinstance(obstacle, Circle):
-            patch = patches.Circle((obstacle.center[0], obstacle.center[1]), obstacle.radius, **how)
-        elif isinstance(obstacle, Rectangle):
-            patch = patches.Polygon(_corners(obstacle), closed=True, **how)
-        elif isinstance(obstacle, Polyline):
-            wall = Path(np.array(obstacle.points, dtype=float))
-            patch = patches.PathPatch(wall, fill=False, joinstyle="round", **how)
-        elif obstacle.holes:
-            patch = patches.PathPatch(_outline(obstacle), **how)
-        else:
-            patch = patches.Polygon(np.array(obstacle.corners, dtype=float), closed=True, **how)
-        if many:
-            drawn.append(patch)
-            continue
-        moving = i - len(world.obstacles)
-        patch.set_gid(f"obstacle-{i}" if moving < 0 else f"mover-{moving}")
-        ax.add_patch(patch)
-        # What lies beyond the walls, where a world lets an obstacle reach into them, is not shown.
-        patch.set_clip_path(arena)
     if many:
         ax.add_collection(
             PatchCollection(drawn, match_original=True, zorder=how["zorder"], clip_path=arena)
         )
+    for name, each in alone.items():
+        for i, patch in enumerate(each):
+            patch.set_gid(f"{name}-{i}")
+            ax.add_patch(patch)
+            patch.set_clip_path(arena)
     for i, mover in enumerate(world.movers):
         course = mover.course
         if isinstance(course, MoverPath):
@@ -98,6 +98,28 @@ def draw_obstacles(ax: Axes, world: World, time: float = 0.0, **how: Any) -> Non
             zorder=how["zorder"],
             gid=f"course-{i}",
         )
+    return moving
+
+
+def _patch_of(obstacle: _Obstacle, how: Mapping[str, Any]) -> patches.Patch:
+    if isinstance(obstacle, Circle):
+        return patches.Circle((obstacle.center[0], obstacle.center[1]), obstacle.radius, **how)
+    if isinstance(obstacle, Rectangle):
+        return patches.Polygon(_corners(obstacle), closed=True, **how)
+    if isinstance(obstacle, Polyline):
+        wall = Path(np.array(obstacle.points, dtype=float))
+        return patches.PathPatch(wall, fill=False, joinstyle="round", **how)
+    if obstacle.holes:
+        return patches.PathPatch(_outline(obstacle), **how)
+    return patches.Polygon(np.array(obstacle.corners, dtype=float), closed=True, **how)
+
+
+def move_to(patch: patches.Patch, mover: _Obstacle) -> None:
+    """The patch of a mover, where that is now."""
+    if isinstance(mover, Circle):
+        cast(patches.Circle, patch).center = (mover.center[0], mover.center[1])
+    else:
+        cast(patches.Polygon, patch).set_xy(_corners(cast(Rectangle, mover)))
 
 
 def _corners(rectangle: Rectangle) -> npt.NDArray[np.float64]:
@@ -227,7 +249,7 @@ def plot_world(
     body = robot if robot is not None else config_of(world).robot
     place = world_of(world)
     stand = tuple(place.start) if pose is None else tuple(pose)
-    ax = arena_axes(ax, place, legend=legend)
+    ax = arena_axes(ax, place, legend=(2 if place.movers and sonar else 1) if legend else 0)
     draw_arena(ax, place)
     draw_obstacles(ax, place, time)
     handles = [draw_robot(ax, body.radius, stand, AT_START if pose is None else "robot")]
@@ -263,7 +285,8 @@ def plot_world(
             Line2D([], [], color=BLUE, linewidth=0.7, linestyle=DASHES, label="where one moves")
         )
     if legend:
-        legend_below(ax, handles)
+        columns = len(handles) if len(handles) < 5 else 3
+        legend_below(ax, in_rows(handles, columns), columns)
     return ax
 
 

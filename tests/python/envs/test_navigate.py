@@ -9,8 +9,8 @@ import gymnasium
 import numpy as np
 import pytest
 from conftest import refused
-from devlearn import RobotDef, TrialConfig, World
-from devlearn.envs import Navigate
+from devlearn import Circle, Mover, MoverPath, RobotDef, TrialConfig, World
+from devlearn.envs import Navigate, NavigateVector
 from gymnasium.utils.env_checker import check_env
 
 CAREFUL = TrialConfig(robot=RobotDef(safety_margin=0.1))
@@ -149,6 +149,27 @@ def test_a_picture_is_drawn_without_a_display_and_follows_the_robot():
     assert 0 < moved.mean() < 0.05  # nothing but the robot and its way
     env.reset(seed=0)
     assert (env.render() == first).all()
+
+
+def test_pictures_show_movers_where_they_are():
+    path = MoverPath([(1.0, 4.0), (4.0, 4.0)], speed=0.5)
+    world = World(movers=[Mover(Circle((0, 0), 0.3), path)])
+    asked = {"world": world, "render_mode": "rgb_array"}
+    env, envs = made(**asked), NavigateVector(2, **asked)
+    env.reset(seed=0)
+    envs.reset(seed=0)
+    first = env.render()
+    for _ in range(8):
+        env.step(2)
+        envs.step(np.array([2, 2]))
+    # Where it was, and where it is: of 480 x 480 pixels.
+    changed = (env.render() != first).any(axis=2)
+    moved_by = 0.5 * 8 * TrialConfig().robot.sample_time
+    for x in (1.0, 1.0 + moved_by):
+        row, column = round(480 * (1 - 4.0 / 5)), round(480 * x / 5)
+        assert changed[row - 5 : row + 5, column - 5 : column + 5].mean() > 0.9
+    upper = slice(0, 240)  # without the robot, which has a way in one of them only
+    assert all((frame[upper] == env.render()[upper]).all() for frame in envs.render())
 
 
 def test_without_a_display_a_person_is_told_what_to_do_once_and_nothing_breaks():

@@ -256,7 +256,9 @@ def test_the_arrays_of_a_batch_outlive_it_and_nobody_writes_to_them():
     assert len(batch) == 2
     assert poses.shape == (2, 3)
     assert batch.poses().tolist() == poses.tolist()
+    assert batch.times().tolist() == [0.0, 0.0]
     batch.step([2, 3])
+    assert batch.times().tolist() == 2 * [batch.config.robot.sample_time]
     assert (poses == batch.rows.pose).all()
     del batch
     assert poses[0, 0] > 0.0
