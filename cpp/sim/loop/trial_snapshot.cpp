@@ -23,7 +23,7 @@ constexpr const char* kFormat = "devlearn-trial";
 // Of trials with noise, or with parts of one's own, which an older reader must not take for exact
 // ones, or for Eq. 6 and the grid's.
 constexpr std::uint64_t kFormatVersion = 3;
-constexpr std::uint64_t kFormatVersionWithoutNoise = 2;
+constexpr std::uint64_t kFormatVersionOfOwnParts = 2;
 constexpr std::uint64_t kFormatVersionOfPlain = 1;
 
 // Stands for an agent where there is none.
@@ -46,10 +46,13 @@ constexpr const char* kSituations = "own.situations";
 constexpr const char* kSefTable = "own.sef_table";
 
 std::uint64_t version_for(const Trial& trial) {
-  if (trial.config().noise != NoiseDef{}) return kFormatVersion;
+  if (!detail::known_to_earlier_builds(trial.config().noise) ||
+      !detail::known_to_earlier_builds(trial.config().robot)) {
+    return kFormatVersion;
+  }
   const TrialParts& parts = trial.parts();
   const bool own = parts.evaluation.function || parts.situations.function;
-  return own || !parts.sef_table.empty() ? kFormatVersionWithoutNoise : kFormatVersionOfPlain;
+  return own || !parts.sef_table.empty() ? kFormatVersionOfOwnParts : kFormatVersionOfPlain;
 }
 
 // What stands before the names of an agent's texts and arrays. devlearn's first two agents stand as

@@ -602,15 +602,23 @@ TEST_CASE("a table of SEFs is saved whole") {
   CHECK(to_bytes(again) == bytes);
 }
 
-TEST_CASE("only a trial with parts of its own has the newer version") {
-  const auto version = [](const TrialParts& parts) {
-    const Bytes bytes = to_bytes(Trial(shipped("paper"), {}, 3, parts));
+TEST_CASE("a trial has a newer version only where older builds would misread it") {
+  const auto version = [](const TrialConfig& config, const TrialParts& parts = {}) {
+    const Bytes bytes = to_bytes(Trial(shipped("paper"), config, 3, parts));
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const std::string entry = "\"format_version\":\"";
     return text.at(text.find(entry) + entry.size());
   };
   CHECK(version({}) == '1');
-  CHECK(version(own_parts("progress", "gap")) == '2');
+  CHECK(version({}, own_parts("progress", "gap")) == '2');
+  TrialConfig noisy, wide, large;
+  noisy.noise.slip = 0.1;
+  wide.robot.sonar_beam = 15.0;
+  large.robot.radius = 0.12;
+  CHECK(version(noisy) == '3');
+  CHECK(version(wide) == '3');
+  CHECK(version(wide, own_parts("progress", "gap")) == '3');
+  CHECK(version(large) == '1');
 }
 
 TEST_CASE("a record is read from a trial's file without the functions it was made by") {

@@ -205,6 +205,16 @@ bool same_fields(const Def& a, const Def& b) noexcept {
       Def::fields().each);
 }
 
+/// Whether earlier builds, which lack some fields of a Def, know all that this one says.
+template <typename Def>
+bool known_to_earlier_builds(const Def& def) {
+  bool known = true;
+  each_field<Def>([&, usual = Def{}](const auto& field) {
+    known = known && (!field.may_lack || def.*field.member == usual.*field.member);
+  });
+  return known;
+}
+
 // --- laws ----------------------------------------------------------------------------------------
 
 /// Such as `LearnerConfig.eta`.
