@@ -51,7 +51,7 @@ Edge near_part(const Edge& edge, Point point, double reach) {
 }
 
 // Whether the way p-q leads through an edge from its front.
-bool passes(b2Vec2 p, b2Vec2 q, const b2EdgeShape& edge) {
+bool leads_through(b2Vec2 p, b2Vec2 q, const b2EdgeShape& edge) {
   const auto left = [](b2Vec2 from, b2Vec2 to, b2Vec2 of) {
     return b2Cross(to - from, of - from) > 0.0f;
   };
@@ -70,9 +70,16 @@ Scene::Scene(const World& world, const RobotDef& robot, const Pose& pose, double
   }
   furthest = way + kReachMargin;
   const double reach = robot.radius + way + kReachMargin;
-  for (const std::uint32_t surface : world.surfaces().around(from, reach)) {
+  const std::vector<std::uint32_t> near = world.surfaces().around(from, reach);
+  edges.reserve(near.size());
+  for (const std::uint32_t surface : near) {
     world.surfaces().apply(surface, [&](const auto& shape) { add(shape, from, reach); });
   }
+  for_each_surface([&](std::size_t, const auto& shape) {
+    b2Transform here;
+    here.SetIdentity();
+    shape.ComputeAABB(&bounds.emplace_back(), here, 0);
+  });
   body.m_radius = static_cast<float>(robot.radius);
   const Direction ahead = direction(heading);
   velocity = vector({speed * ahead.x, speed * ahead.y});
@@ -113,6 +120,14 @@ void Scene::add(const Circle& circle, Point from, double) {
   circles.back().m_radius = static_cast<float>(circle.radius);
 }
 
+bool Scene::passes(b2Vec2 p, b2Vec2 q) const {
+  const b2AABB way{b2Min(p, q), b2Max(p, q)};
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (b2TestOverlap(way, bounds[i]) && leads_through(p, q, edges[i])) return true;
+  }
+  return false;
+}
+
 void prepare_box2d() {
   static std::once_flag prepared;
   std::call_once(prepared, [] {
@@ -140,8 +155,7 @@ Drive drive_in_box2d(const Scene& scene, int iterations) {
     smooth.shape = &shape;
     owner->CreateFixture(&smooth);
   };
-  for (const b2EdgeShape& edge : scene.edges) add(ground, edge);
-  for (const b2CircleShape& circle : scene.circles) add(ground, circle);
+  scene.for_each_surface([&](std::size_t, const b2Shape& shape) { add(ground, shape); });
 
   b2BodyDef body_def;
   body_def.type = b2_dynamicBody;
@@ -166,9 +180,7 @@ Drive drive_in_box2d(const Scene& scene, int iterations) {
     for (const b2ContactEdge* c = body->GetContactList(); c && !drive.touched; c = c->next) {
       drive.touched = c->contact->IsTouching();
     }
-    for (const b2EdgeShape& edge : scene.edges) {
-      drive.passed = drive.passed || passes(place, body->GetPosition(), edge);
-    }
+    drive.passed = drive.passed || scene.passes(place, body->GetPosition());
     if (!scene.movers.empty()) {
       drive.trail.push_back({body->GetPosition().x, body->GetPosition().y});
       continue;

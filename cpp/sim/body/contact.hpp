@@ -32,8 +32,19 @@ struct Scene {
     b2Vec2 place, velocity;
   };
 
+  /// f(i, shape) of all that stands still: edges, then circles.
+  template <typename F>
+  void for_each_surface(const F& f) const {
+    std::size_t i = 0;
+    for (const b2EdgeShape& edge : edges) f(i++, edge);
+    for (const b2CircleShape& circle : circles) f(i++, circle);
+  }
+  /// Whether the way p-q leads through an edge from its front.
+  bool passes(b2Vec2 p, b2Vec2 q) const;
+
   std::vector<b2EdgeShape> edges;
   std::vector<b2CircleShape> circles;
+  std::vector<b2AABB> bounds;  // of edges, then circles
   std::vector<Moving> movers;
   b2CircleShape body;
   b2Vec2 velocity;

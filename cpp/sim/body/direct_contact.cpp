@@ -1,5 +1,10 @@
 #include "body/direct_contact.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 namespace devlearn {
 namespace {
 
@@ -9,46 +14,124 @@ constexpr bool kAsked = true;
 constexpr bool kAsked = false;
 #endif
 
-// The one place where the body touches something.
+b2AABB square(b2Vec2 centre, float half) {
+  const b2Vec2 corner{half, half};
+  return {centre - corner, centre + corner};
+}
+
+// A surface that the body touches, and what keeps the body out of it.
 struct Contact {
-  const b2Shape* surface = nullptr;
+  std::size_t surface;  // its number in the scene
+  float radius;         // its own
   b2Manifold manifold;
+  b2Vec2 outwards{0.0f, 0.0f};  // normal() where the substep begins
+  float impulse = 0.0f;
 
   // Where it leads out, at a place of the body.
   b2Vec2 normal(b2Vec2 place) const {
     if (manifold.type != b2Manifold::e_circles) return manifold.localNormal;
-    b2Vec2 outwards = place - manifold.localPoint;
-    outwards.Normalize();
-    return outwards;
+    b2Vec2 away = place - manifold.localPoint;
+    away.Normalize();
+    return away;
   }
 };
 
-// Impulses take away what leads into the surface, and never pull: b2ContactSolver's
+// The order in which Box2D solves a body's contacts: that of its list of what its tree of boxes
+// finds near, which grows at the front. b2BroadPhase, b2ContactManager.
+class SolvingOrder {
+ public:
+  // For a body that went along these places.
+  SolvingOrder(const Scene& scene, const std::vector<b2Vec2>& trail)
+      : radius_(scene.body.m_radius) {
+    for (const b2AABB& bound : scene.bounds) proxies_.push_back(tree_.CreateProxy(bound, nullptr));
+    body_ = tree_.CreateProxy(bound(trail.front()), nullptr);
+    find();
+    for (std::size_t i = 1; i < trail.size(); ++i) follow(trail[i - 1], trail[i]);
+  }
+
+  // b2Fixture::Synchronize
+  void follow(b2Vec2 from, b2Vec2 to) {
+    const b2AABB begin = bound(from), end = bound(to);
+    b2AABB swept;
+    swept.Combine(begin, end);
+    if (tree_.MoveProxy(body_, swept, end.GetCenter() - begin.GetCenter())) find();
+  }
+
+  void sort(std::vector<Contact>& contacts) const {
+    const auto rank = [this](const Contact& contact) {
+      return std::find(near_.begin(), near_.end(), proxies_[contact.surface]);
+    };
+    std::sort(contacts.begin(), contacts.end(),
+              [&](const Contact& a, const Contact& b) { return rank(a) < rank(b); });
+  }
+
+  // Of b2DynamicTree::Query.
+  bool QueryCallback(std::int32_t proxy) {
+    const bool known = std::find(near_.begin(), near_.end(), proxy) != near_.end();
+    if (proxy != body_ && !known) near_.insert(near_.begin(), proxy);
+    return true;
+  }
+
+ private:
+  b2AABB bound(b2Vec2 place) const { return square(place, radius_); }
+  void find() {
+    const b2AABB& body = tree_.GetFatAABB(body_);
+    const auto apart = [&](std::int32_t proxy) {
+      return !b2TestOverlap(tree_.GetFatAABB(proxy), body);
+    };
+    near_.erase(std::remove_if(near_.begin(), near_.end(), apart), near_.end());
+    tree_.Query(this, body);
+  }
+
+  float radius_;  // the body's
+  b2DynamicTree tree_;
+  std::vector<std::int32_t> proxies_, near_;
+  std::int32_t body_;
+};
+
+// Impulses take away what leads into the surfaces, and never pull: b2ContactSolver's
 // SolveVelocityConstraints.
-void solve_velocity(b2Vec2& velocity, b2Vec2 normal, float mass, int iterations) {
+void solve_velocity(b2Vec2& velocity, std::vector<Contact>& contacts, float mass, int iterations) {
   const float inverse_mass = 1.0f / mass, normal_mass = 1.0f / inverse_mass;
-  float impulse = 0.0f;
-  for (int i = 0; i < iterations; ++i) {
-    const float sum = b2Max(impulse - normal_mass * b2Dot(velocity, normal), 0.0f);
-    const float added = sum - impulse;
-    if (added == 0.0f) return;
-    impulse = sum;
-    velocity += inverse_mass * (added * normal);
+  bool changed = true;
+  for (int i = 0; i < iterations && changed; ++i) {
+    changed = false;
+    for (Contact& contact : contacts) {
+      const float sum =
+          b2Max(contact.impulse - normal_mass * b2Dot(velocity, contact.outwards), 0.0f);
+      const float added = sum - contact.impulse;
+      contact.impulse = sum;
+      velocity += inverse_mass * (added * contact.outwards);
+      changed = changed || added != 0.0f;
+    }
   }
 }
 
 // What lies deeper than the slop is pushed out, a part an iteration: SolvePositionConstraints.
-void solve_position(b2Vec2& place, const Contact& contact, float radius, float mass) {
+void solve_position(b2Vec2& place, const std::vector<Contact>& contacts, float radius, float mass) {
   const float inverse_mass = 1.0f / mass;
-  for (int i = 0; i < kPositionIterations; ++i) {
-    const b2Vec2 normal = contact.normal(place);
-    const float separation =
-        b2Dot(place - contact.manifold.localPoint, normal) - contact.surface->m_radius - radius;
-    const float push =
-        b2Clamp(b2_baumgarte * (separation + b2_linearSlop), -b2_maxLinearCorrection, 0.0f);
-    place += inverse_mass * ((-push / inverse_mass) * normal);
-    if (separation >= -3.0f * b2_linearSlop) return;
+  bool deep = true;
+  for (int i = 0; i < kPositionIterations && deep; ++i) {
+    deep = false;
+    for (const Contact& contact : contacts) {
+      const b2Vec2 normal = contact.normal(place);
+      const float separation =
+          b2Dot(place - contact.manifold.localPoint, normal) - contact.radius - radius;
+      const float push =
+          b2Clamp(b2_baumgarte * (separation + b2_linearSlop), -b2_maxLinearCorrection, 0.0f);
+      place += inverse_mass * ((-push / inverse_mass) * normal);
+      deep = deep || separation < -3.0f * b2_linearSlop;
+    }
   }
+}
+
+void collide(b2Manifold& manifold, const b2EdgeShape& edge, const b2Transform& ground,
+             const b2CircleShape& body, const b2Transform& at) {
+  b2CollideEdgeAndCircle(&manifold, &edge, ground, &body, at);
+}
+void collide(b2Manifold& manifold, const b2CircleShape& circle, const b2Transform& ground,
+             const b2CircleShape& body, const b2Transform& at) {
+  b2CollideCircles(&manifold, &circle, ground, &body, at);
 }
 
 // Whether the Box2D at hand rounds every product before it adds it up, as it does unless its
@@ -84,8 +167,8 @@ bool solves_directly() {
   return same;
 }
 
-// b2World::Step with one contact. What it multiplies by zero here (turning, friction, restitution,
-// the ground's motion) is left out.
+// b2World::Step. What it multiplies by zero here (turning, friction, restitution, the ground's
+// motion) is left out.
 std::optional<Drive> drive_directly(const Scene& scene, int iterations) {
   if (!solves_directly()) return std::nullopt;
   b2MassData mass;
@@ -94,28 +177,42 @@ std::optional<Drive> drive_directly(const Scene& scene, int iterations) {
   ground.SetIdentity();
   at.SetIdentity();
   b2Vec2 velocity = scene.velocity;
-  Contact contact;
+  std::vector<b2Vec2> trail;  // where each substep began
+  trail.reserve(static_cast<std::size_t>(scene.substeps));
+  std::vector<Contact> contacts;
+  std::optional<SolvingOrder> order;  // once it matters
+  Drive drive;
   for (int i = 0; i < scene.substeps; ++i) {
-    bool touching = false, several = false;
-    const auto meet = [&](auto collide, const auto& surface) {
-      b2Manifold manifold;
-      collide(&manifold, &surface, ground, &scene.body, at);
-      if (manifold.pointCount == 0) return;
-      several = several || (contact.surface != nullptr && contact.surface != &surface);
-      touching = true;
-      contact = {&surface, manifold};
+    trail.push_back(at.p);
+    const b2AABB near = square(at.p, scene.body.m_radius + b2_linearSlop);
+    contacts.clear();
+    const auto meet = [&](std::size_t surface, const auto& shape) {
+      if (!b2TestOverlap(near, scene.bounds[surface])) return;
+      Contact contact{surface, shape.m_radius, {}};
+      collide(contact.manifold, shape, ground, scene.body, at);
+      if (contact.manifold.pointCount == 0) return;
+      contact.outwards = contact.normal(at.p);
+      contacts.push_back(contact);
     };
-    for (const b2EdgeShape& edge : scene.edges) meet(b2CollideEdgeAndCircle, edge);
-    for (const b2CircleShape& circle : scene.circles) meet(b2CollideCircles, circle);
-    if (several) return std::nullopt;
+    scene.for_each_surface(meet);
+    drive.touched = drive.touched || !contacts.empty();
+    if (order) {
+      order->follow(trail[trail.size() - 2], at.p);
+    } else if (contacts.size() > 1) {
+      order.emplace(scene, trail);
+    }
+    if (contacts.size() > 1) order->sort(contacts);
 
     const b2Vec2 place = at.p, before = velocity;
-    if (touching) solve_velocity(velocity, contact.normal(at.p), mass.mass, iterations);
+    solve_velocity(velocity, contacts, mass.mass, iterations);
     at.p += scene.substep * velocity;
-    if (touching) solve_position(at.p, contact, scene.body.m_radius, mass.mass);
+    solve_position(at.p, contacts, scene.body.m_radius, mass.mass);
+    // Along a single surface the body gets through nothing.
+    drive.passed = drive.passed || (order && scene.passes(place, at.p));
     if (at.p == place && velocity == before) break;  // and so would all others
   }
-  return Drive{{at.p.x, at.p.y}, contact.surface != nullptr};
+  drive.moved = {at.p.x, at.p.y};
+  return drive;
 }
 
 }  // namespace devlearn

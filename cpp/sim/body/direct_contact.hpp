@@ -6,13 +6,13 @@
 
 namespace devlearn {
 
-/// What drive_in_box2d gives, to the bit, where the body touches a single surface: Box2D's own
-/// operations for one contact of a disc that does not turn, without a world and its bookkeeping.
-/// Nothing where the body touches several, or where the Box2D at hand is not the one that this
-/// follows, or where devlearn was built with DEVLEARN_DIRECT_CONTACTS off.
+/// What drive_in_box2d gives among what stands still, to the bit: Box2D's own operations for the
+/// contacts of a disc that does not turn, in the order in which it solves them, without a world and
+/// its bookkeeping. Nothing where the Box2D at hand is not the one that this follows, or where
+/// devlearn was built with DEVLEARN_DIRECT_CONTACTS off.
 std::optional<Drive> drive_directly(const Scene& scene, int iterations);
 
-/// Whether drives along a single surface are solved so.
+/// Whether drives are solved so.
 bool solves_directly();
 
 }  // namespace devlearn
