@@ -5,6 +5,7 @@ import math
 import struct
 import subprocess
 import sys
+import time
 import zlib
 
 import devlearn
@@ -488,6 +489,12 @@ def test_fields_that_are_missing_or_out_of_range_are_named(tmp_path, field, valu
         b"[" * 5000,
         b"when: 2001-99-99\n",
         b"# long\n" * 20000,
+        b"[" * 60000,
+        b"negate: !!int ''\n",
+        b"negate: !!float ''\n",
+        b"negate: !!bool maybe\n",
+        b"negate: !!timestamp today\n",
+        b"!!int '': 3\n",
     ],
 )
 def test_what_is_no_yaml_of_a_map_is_refused(tmp_path, text):
@@ -544,6 +551,7 @@ BOMB = zlib.compress(b"\0" * 50_000_000, 9)
         ("map.pgm", b"P5 10 ten 255\n"),
         ("map.pgm", b""),
         ("map.pgm", b"GIF89a"),
+        ("map.pgm", b"Pf 20 20 -1.0\n" + bytes(1600)),
         ("map.png", png(30_000, 30_000)),
         ("map.png", png(60_000, 60_000, (b"IDAT", BOMB))),
         ("map.png", png(20, 20, (b"zTXt", b"note\0\0" + BOMB), (b"IDAT", b""))),
@@ -557,6 +565,12 @@ def test_images_that_are_too_large_or_broken_are_refused_before_they_are_unpacke
     error = not_read(written(tmp_path, None, image=name))
     assert error.file == str(tmp_path / name)
     assert not recwarn.list
+
+
+@pytest.mark.parametrize("side", [9000, 12_000, 30_000])
+def test_too_large_images_are_told_how_large_one_may_be(tmp_path, side):
+    (tmp_path / "map.pgm").write_bytes(f"P5 {side} {side} 255\n".encode())
+    assert "at most 10000 x 10000 cells" in not_read(written(tmp_path, None)).allowed
 
 
 def test_a_png_that_unpacks_to_more_than_it_says_makes_no_more_of_it(tmp_path):
@@ -578,6 +592,19 @@ def test_an_arena_too_small_or_too_large_is_refused(tmp_path, resolution):
 def test_a_map_without_free_space_is_refused(tmp_path, picture, unknown):
     path = drawn(tmp_path, "\n".join([2 * picture] * 8))
     assert "no free cell" in not_read(path, unknown=unknown).value
+
+
+def test_noise_that_would_take_long_to_simplify_is_refused_at_once_or_kept(tmp_path):
+    # Every other row and column: 122 500 outlines of a cell; and 490 000 corners around 40 000.
+    for side in (700, 400):
+        shades = np.full((side, side), 254)
+        shades[::2, ::2] = 0
+        path = written(tmp_path, around(shades, 20))
+        began = time.process_time()
+        error = not_read(path)
+        assert time.process_time() - began < 5
+        assert "a tolerance of 0" in error.allowed
+    assert len(import_ros_map(path, tolerance=0).world.obstacles) == 40_000
 
 
 def test_a_map_without_room_for_the_robot_is_refused(tmp_path):
@@ -609,6 +636,23 @@ def test_places_of_too_few_numbers_are_refused(tmp_path):
     refused(lambda: World.from_ros_map(path, start=(1, 1)))
     refused(lambda: import_ros_map(path, start=(1, 1)), "start")
     refused(lambda: import_ros_map(path, target="nowhere"), "target")
+
+
+@pytest.mark.parametrize("tolerance", ["0.1", [0.1], 10**400])
+def test_a_tolerance_is_a_number(tmp_path, tolerance):
+    refused(lambda: import_ros_map(drawn(tmp_path, ROOM), tolerance=tolerance), "tolerance")
+
+
+@pytest.mark.parametrize("start", ["000", b"000", {0: 0, 1: 0, 2: 0}, ("0", "0", "0"), 3])
+def test_text_is_no_place(tmp_path, start):
+    refused(lambda: import_ros_map(drawn(tmp_path, ROOM), start=start), "start", repr(start))
+
+
+def test_a_place_with_no_way_to_any_other_is_named_with_the_nearest_that_has_room(tmp_path):
+    path = drawn(tmp_path, ROOM)
+    error = refused(lambda: World.from_ros_map(path, target=(0, 0)), "target")
+    assert "(0, 0), and no way" in error.value
+    assert "the nearest is (0.15, 0.15)" in error.allowed
 
 
 def test_without_the_extra_it_says_how_to_get_it(tmp_path):

@@ -31,13 +31,13 @@ except ModuleNotFoundError as error:
 
 from .cells import Cells
 from .files import OCCUPIED, UNKNOWN, MapFile, occupancy_of
-from .outlines import polygon_of, simplified, traced
+from .outlines import MOST_OUTLINES, polygon_of, simplified, traced
 from .places import Places, with_a_way
 
 __all__ = ["MapImport", "import_ros_map"]
 
 # What a world takes (docs/world-format.md).
-_MOST_OUTLINES, _MOST_CORNERS = 100_000, 1_000_000
+_MOST_CORNERS = 1_000_000
 
 _CUT = math.sqrt(0.125)  # how much of a cell's corner tracing cuts off, at the deepest [cells]
 
@@ -112,24 +112,26 @@ def import_ros_map(
     target = _given("target", target, "two numbers, x and y [m]")
     if unknown not in ("occupied", "free", "border"):
         raise InvalidValue("unknown", repr_of(unknown), "'occupied', 'free' or 'border'")
-    if tolerance is not None and not 0 <= tolerance <= 10:
-        raise InvalidValue("tolerance", tolerance, "in [0, 10] m")
+    if tolerance is not None:
+        (tolerance,) = _numbers("tolerance", [tolerance], "a number in [0, 10] m, or None")
+        if not 0 <= tolerance <= 10:
+            raise InvalidValue("tolerance", tolerance, "in [0, 10] m")
 
     file = MapFile.read(path_text(path))
     image = str(file.image)
     occupancy, frame = occupancy_of(file)
     cells = Cells.of(occupancy, unknown, file.resolution, image)
     areas, error = simplified(
-        traced(cells, image), 0.5 * cells.side if tolerance is None else tolerance
+        traced(cells, image), 0.5 * cells.side if tolerance is None else tolerance, image
     )
     outlines = np.concatenate([frame.to_map(areas), frame.beyond()])
     corners = len(shapely.get_coordinates(outlines)) - len(shapely.get_rings(outlines))
-    if len(outlines) > _MOST_OUTLINES or corners > _MOST_CORNERS:
+    if len(outlines) > MOST_OUTLINES or corners > _MOST_CORNERS:
         raise FileError(
             image,
             "",
             f"{len(outlines)} outlines with {corners} corners",
-            f"at most {_MOST_OUTLINES} with {_MOST_CORNERS}: give a greater tolerance, or an image "
+            f"at most {MOST_OUTLINES} with {_MOST_CORNERS}: give a greater tolerance, or an image "
             "with less noise",
         )
 
@@ -174,13 +176,21 @@ def import_ros_map(
 def _given(name: str, value: Sequence[float] | None, wanted: str) -> list[float] | None:
     if value is None:
         return None
-    try:
-        numbers = [float(number) for number in value]
-    except (TypeError, ValueError):
-        raise WrongType(name, repr_of(value), wanted) from None
+    numbers = _numbers(name, value, wanted)
     if len(numbers) != (3 if name == "start" else 2) or not all(map(math.isfinite, numbers)):
         raise InvalidValue(name, repr_of(value), f"{wanted}, all finite")
     return numbers
+
+
+def _numbers(name: str, value: Sequence[float], wanted: str) -> list[float]:
+    """What is told as numbers, and not as text of them. Raises WrongType."""
+    try:
+        array = np.asarray([*value])
+    except (TypeError, ValueError):
+        array = np.asarray(None)
+    if isinstance(value, (str, bytes, dict)) or array.ndim != 1 or array.dtype.kind not in "iuf":
+        raise WrongType(name, repr_of(value), wanted)
+    return list(map(float, array.tolist()))
 
 
 def _utf8(text: str) -> str:

@@ -20,7 +20,7 @@ from .frame import Frame
 OCCUPIED, UNKNOWN = 100, -1  # of nav_msgs/OccupancyGrid; what lies between is free
 MODES = ("trinary", "scale", "raw")
 
-LONGEST_YAML = 1 << 16  # [bytes]
+LONGEST_YAML = 1 << 13  # [bytes]; nested ones take PyYAML time that grows by the square
 MOST_SIDE, MOST_CELLS = 10_000, 1 << 26
 
 Occupancy = npt.NDArray[np.int8]
@@ -93,9 +93,10 @@ class _Fields:
             if any(isinstance(token, yaml.AliasToken) for token in yaml.scan(content)):
                 raise FileError(path, "", "a YAML with aliases", wanted)
             self._fields = yaml.safe_load(content)
-        except (yaml.YAMLError, ValueError, RecursionError) as error:
-            if isinstance(error, FileError):
-                raise
+        except FileError:
+            raise
+        # PyYAML's own and, where a value is not what its tag says, whatever made it stumble.
+        except (yaml.YAMLError, ValueError, LookupError, AttributeError, RecursionError) as error:
             why = " ".join(str(error).split())
             raise FileError(path, "", f"no YAML ({why})", wanted) from error
         if not isinstance(self._fields, dict):
@@ -155,6 +156,7 @@ def occupancy_of(file: MapFile) -> tuple[Occupancy, Frame]:
     What is too large is refused before a pixel is unpacked.
     """
     name = str(file.image)
+    allowed = f"at most {MOST_SIDE} x {MOST_SIDE} cells, and {MOST_CELLS} in all"
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
@@ -162,13 +164,14 @@ def occupancy_of(file: MapFile) -> tuple[Occupancy, Frame]:
         with image:
             columns, rows = image.size
             if max(columns, rows) > MOST_SIDE or columns * rows > MOST_CELLS:
-                allowed = f"at most {MOST_SIDE} x {MOST_SIDE}, and {MOST_CELLS} in all"
                 raise FileError(name, "", f"{columns} x {rows} cells", allowed)
             frame = Frame.of(file.path, columns, rows, file.resolution, file.origin)
             grey, opaque = _grey(image)
     except FileError:
         raise
-    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+    except Image.DecompressionBombError as error:
+        raise FileError(name, "", f"more cells than are read ({error})", allowed) from error
+    except (OSError, ValueError, SyntaxError) as error:
         raise FileError(name, "", f"no image to be read ({error})", "a PGM or PNG") from error
     occupancy = _occupancy_of_shades(file)[grey]
     if opaque is not None and file.mode != "raw":
@@ -178,6 +181,8 @@ def occupancy_of(file: MapFile) -> tuple[Occupancy, Frame]:
 
 def _grey(image: Image.Image) -> tuple[npt.NDArray[np.uint8], Bools | None]:
     """Shades of 0 to 255, and which pixels are opaque, where the image says that."""
+    if image.mode == "F":
+        raise ValueError("a portable float map")
     if image.mode.startswith("I"):  # of 16 bits
         return ((np.asarray(image).astype(np.uint32) + 128) // 257).astype(np.uint8), None
     if "A" in image.getbands() or "transparency" in image.info:

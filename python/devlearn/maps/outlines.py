@@ -14,6 +14,8 @@ from .files import Bools
 from .frame import LEAST_AREA, Numbers, Shapes
 
 MOST_BORDERS = 1 << 22  # sides of cells between what is obstructed and what is not
+MOST_OUTLINES = 100_000  # of a world (docs/world-format.md)
+MOST_PAIRS = 2_000_000_000  # of rings and corners, which GEOS compares: ten seconds at worst
 
 Indices = npt.NDArray[np.int64]
 
@@ -74,12 +76,26 @@ def _areas(rings: Shapes) -> Shapes:
     return np.asarray(solid)
 
 
-def simplified(areas: Shapes, tolerance: float) -> tuple[Shapes, float]:
+def simplified(areas: Shapes, tolerance: float, image: str) -> tuple[Shapes, float]:
     """Each with fewer corners, its outline within the tolerance; and the greatest distance [m].
+
+    Raises FileError where they are so many that it would take long.
 
     GEOS keeps outlines apart, but not always within the tolerance, nor in all cases large enough
     for a world. Then an area is simplified by half the tolerance, or stays as it was traced.
     """
+    if tolerance == 0.0:
+        return areas, 0.0
+    rings, corners = len(shapely.get_rings(areas)), len(shapely.get_coordinates(areas))
+    if len(areas) > MOST_OUTLINES or rings * corners > MOST_PAIRS:
+        raise FileError(
+            image,
+            "",
+            f"{rings} outlines and holes with {corners} corners",
+            f"at most {MOST_OUTLINES} outlines, and at most {MOST_PAIRS} for the product of both "
+            "numbers: an image with less noise, or a tolerance of 0, which leaves corners as they "
+            "are",
+        )
     outlines, distances = areas.copy(), np.zeros(len(areas))
     left = np.arange(len(areas))
     for part in (1.0, 0.5):

@@ -125,6 +125,14 @@ def with_a_way(
                     "a place that it can get to; "
                     + places.nearest(target, places.region_of(start)),
                 )
+    for name, given in (("start", start), ("target", target)):
+        if given is not None:
+            raise InvalidValue(
+                name,
+                f"{shown(given)}, and no way between it and {DRAWS} places drawn for a body "
+                f"of radius {places.radius:g} m",
+                f"a place with a way to others; {places.nearest(given)}",
+            )
     raise InvalidValue(
         "start and target",
         f"{DRAWS} draws without a way from one to the other",
