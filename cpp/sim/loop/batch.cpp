@@ -5,6 +5,7 @@
 
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
+#include "devlearn/math.hpp"
 
 namespace devlearn {
 namespace {
@@ -149,7 +150,7 @@ void Batch::tell(std::size_t i, Rows& rows) {
   double* const pose = &rows.pose[3 * i];
   pose[0] = here.pose.x;
   pose[1] = here.pose.y;
-  pose[2] = here.pose.heading;
+  pose[2] = wrapped_heading(here.pose.heading);
   rows.situation[i] = here.situation;
   rows.goal_distance[i] = here.goal_distance;
   rows.clearance[i] = here.clearance;

@@ -64,7 +64,7 @@ class NavigateVector(VectorEnv[Any, Any, Any]):
             random_starts=random_starts,
             autoreset=mode.name.lower(),
         )
-        self.num_envs = num_envs
+        self.num_envs = num_envs = len(self._view.batch)
         self.metadata = {
             "render_modes": ["rgb_array"],
             "render_fps": Navigate.metadata["render_fps"],

@@ -150,8 +150,8 @@ class View:
         seeded = np.array([seed is not None for seed in seeds])
         values = np.array([seed or 0 for seed in seeds], dtype=np.uint64)
         reset = np.ones(count, dtype=np.bool_) if which is None else which
-        if (reset & ~seeded).any():
-            self.batch.reset(which=reset & ~seeded, poses=poses)
+        if (reset & ~seeded).any():  # of all, so that a pose of any is refused before any begins
+            self.batch.reset(which=reset, poses=poses)
         if (reset & seeded).any():
             self.batch.reset(values, reset & seeded, poses)
 
@@ -173,7 +173,7 @@ def _known(observe: Sequence[str] | None, config: TrialConfig) -> tuple[str, ...
     if observe is None:
         return there[:-1]
     names = () if isinstance(observe, str) or not isinstance(observe, Sequence) else tuple(observe)
-    if not names or len(set(names)) < len(names) or not set(names) <= set(there):
+    if not names or any(name not in there or names.count(name) > 1 for name in names):
         raise InvalidValue("observe", shown(observe), f"None, or some of {', '.join(there)}")
     return names
 

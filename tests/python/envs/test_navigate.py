@@ -136,6 +136,20 @@ def test_a_reset_puts_the_robot_where_it_is_asked_to_be():
     assert info["goal_distance"] == pytest.approx(np.hypot(x - 1.0, y - 2.0))
 
 
+@pytest.mark.parametrize("heading", [-90.0, 360.0, 765.0, -1e-20])
+def test_a_heading_of_any_number_of_turns_is_observed_within_one(heading):
+    turned = made(world=World(start=(1.0, 2.0, heading), target=(4.0, 4.0)))
+    put = made()
+    within = made()
+    options = {"pose": (1.0, 2.0, heading % 360 if heading != -1e-20 else 0.0)}
+    wanted = within.reset(options=options)[0]["pose"]
+    for env, how in ((turned, {}), (put, {"options": {"pose": (1.0, 2.0, heading)}})):
+        seen, _ = env.reset(seed=1, **how)
+        assert env.observation_space.contains(seen)
+        assert 0 <= seen["pose"][2] < 360
+        assert (seen["pose"] == wanted).all()
+
+
 def test_a_picture_is_drawn_without_a_display_and_follows_the_robot():
     env = made(render_mode="rgb_array")
     env.reset(seed=0)
@@ -201,6 +215,7 @@ def test_without_a_display_a_person_is_told_what_to_do_once_and_nothing_breaks()
         ({"observe": "pose"}, "observe"),
         ({"observe": ["pose", "pose"]}, "observe"),
         ({"observe": ["camera"]}, "observe"),
+        ({"observe": [["pose"]]}, "observe"),
         (
             {"observe": ["sonars"], "config": TrialConfig(robot=RobotDef(sonar_count=0))},
             "observe",

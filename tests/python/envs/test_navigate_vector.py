@@ -224,6 +224,17 @@ def test_options_that_there_are_not_are_refused(options, quantity):
     refused(lambda: made(2).reset(options=options), quantity)
 
 
+@pytest.mark.parametrize("seed", [None, 1, [None, 1, 1], [1, 1, None]])
+def test_where_one_pose_does_not_fit_nobody_is_reset_seeded_or_not(seed):
+    asked, left = made(3), made(3)
+    for envs in (asked, left):
+        envs.reset(seed=1)
+        envs.step([0, 1, 2])
+    poses = [(1.0, 1.0, 0.0), (1.0, 1.0, 0.0), (-1.0, 1.0, 0.0)]
+    refused(lambda: asked.reset(seed=seed, options={"pose": poses}), "pose.x")
+    assert (asked.step([2, 2, 2])[0]["pose"] == left.step([2, 2, 2])[0]["pose"]).all()
+
+
 # --- the batch itself -----------------------------------------------------------------------------
 
 

@@ -78,7 +78,7 @@ class Batch {
  public:
   /// What is known where the robots are.
   struct Rows {
-    std::vector<double> pose;            ///< x, y, heading: 3 a row [m, m, degrees]
+    std::vector<double> pose;            ///< x, y, heading in [0, 360): 3 a row [m, m, degrees]
     std::vector<SituationId> situation;  ///< S_i
     std::vector<double> goal_distance;   ///< d_g [m]
     std::vector<double> clearance;       ///< d_o [m]
