@@ -187,7 +187,7 @@ class LearnerOn:
             that is broken off, also by Ctrl-C, is not counted: what was finished is in
             ``interrupted``, and the next run begins with it anew, the learner as it has become.
         """
-        _require_run(episodes, step_limit)
+        _require_run(episodes, step_limit, progress)
         if first is not None:
             require_whole("LearnerOn.run.first", first, 0)
         if seed is not None:
@@ -256,7 +256,7 @@ class LearnerOn:
             motion = player.choose(seen)
             try:
                 observation, gain, ended, cut, info = self._env.step(self._first_action + motion)
-                reward, terminated, truncated = float(gain), bool(ended), bool(cut)
+                reward, terminated, truncated = _finite("reward", gain), bool(ended), bool(cut)
                 before = sef
                 situation, sef, estimate = self._senses(observation, terminated)
                 player.observe(
@@ -285,7 +285,7 @@ class LearnerOn:
         situation = self._situations(observation)
         sef = 0.0
         if callable(self._evaluation):
-            sef = _finite("evaluation", self._evaluation(observation))
+            sef = _finite("LearnerOn.evaluation", self._evaluation(observation))
         if terminated:
             return situation, sef, 0.0
         if not callable(self._estimate):
@@ -293,10 +293,8 @@ class LearnerOn:
         return situation, sef, _estimated(self._estimate(observation))
 
     def _cost_of(self, reward: float, terminated: bool) -> float:
-        if not math.isfinite(reward):
-            raise InvalidValue("reward", reward, "a finite number")
         given = -reward if self._cost is None else self._cost(reward, terminated)
-        cost = _finite("cost", given) + 0.0  # no -0.0
+        cost = _finite("LearnerOn.cost", given) + 0.0  # no -0.0
         if cost < 0.0 and isinstance(self._player, OfAdaptive):
             raise InvalidValue(
                 "cost",
@@ -336,24 +334,26 @@ class LearnerOn:
             self._estimate = _estimated(self._estimate)
 
 
-def _require_run(episodes: int, step_limit: int | None) -> None:
+def _require_run(episodes: int, step_limit: int | None, progress: object = None) -> None:
     require_whole("episodes", episodes, 0)
     if step_limit is not None:
         require_whole("step_limit", step_limit, 1)
+    if not (progress is None or callable(progress)):
+        raise InvalidValue("progress", shown(progress), "a function (done, total), or None")
 
 
-def _finite(name: str, value: object) -> float:
+def _finite(quantity: str, value: object) -> float:
     try:
-        number = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+        number = math.nan if isinstance(value, (str, bytes)) else float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
-        raise InvalidValue(f"LearnerOn.{name}", shown(value), "a finite number")
+        raise InvalidValue(quantity, shown(value), "a finite number")
     return number
 
 
 def _estimated(value: object) -> float:
-    estimate = _finite("estimate", value)
+    estimate = _finite("LearnerOn.estimate", value)
     if estimate <= 0.0:
         raise InvalidValue(
             "LearnerOn.estimate", shown(value), "above 0, which is where an episode has terminated"

@@ -38,16 +38,31 @@ def actions_of(env: Env) -> tuple[int, int]:
 
 
 def allowed_of(info: Mapping[str, Any], count: int) -> npt.NDArray[np.bool_] | None:
-    """Which actions an environment allows, by ``info["action_mask"]``; None: it does not say."""
+    """Which actions an environment allows, by ``info["action_mask"]``; None: it does not say.
+
+    Raises InvalidValue for what is no mask, or allows nothing.
+    """
+    if not isinstance(info, Mapping):
+        raise InvalidValue("info", shown(info), "a dict, as Gymnasium's environments give it")
     mask = info.get("action_mask")
     if mask is None:
         return None
-    allowed = np.asarray(mask, dtype=bool)
-    if allowed.shape != (count,):
-        raise InvalidValue(
-            'info["action_mask"]', f"an array of shape {allowed.shape}", f"shape {(count,)}"
-        )
-    return allowed
+    allowed = array_of(mask)
+    if allowed is None or allowed.shape != (count,) or not np.isin(allowed, (0, 1)).all():
+        wanted = f"{count} of 0 and 1, one an action"
+        raise InvalidValue('info["action_mask"]', shown(mask), wanted)
+    if not allowed.any():
+        raise InvalidValue('info["action_mask"]', shown(mask), "an action that is allowed")
+    return allowed.astype(np.bool_)
+
+
+def array_of(given: object) -> npt.NDArray[Any] | None:
+    """As an array of numbers; None for what is none."""
+    try:
+        array = np.asarray(given)
+    except ValueError:  # lists of different lengths
+        return None
+    return array if array.dtype.kind in "biuf" else None
 
 
 def reset_seed(random: Random) -> int:

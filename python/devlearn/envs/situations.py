@@ -15,9 +15,10 @@ from gymnasium import spaces
 from .._calls import shown
 from .._core import Random
 from ..errors import InvalidValue
-from .others import Env, actions_of, allowed_of, is_whole, require_whole, reset_seed
+from .others import Env, actions_of, allowed_of, array_of, is_whole, require_whole, reset_seed
 
 _MOST = 2**63  # situations
+_MOST_TILES = 1_000_000  # of a dimension, whose edges are kept one by one
 _NO_BOUND = float(np.finfo(np.float32).max)  # in older environments it stands for infinity
 
 
@@ -66,11 +67,11 @@ class DiscreteSituations:
 
     def __call__(self, observation: Any) -> int:
         """The id of an observation."""
-        digits = np.ravel(observation)
-        if digits.dtype.kind not in "iub" or digits.size != len(self.counts):
+        digits = array_of(observation)
+        if digits is None or digits.dtype.kind == "f" or digits.size != len(self.counts):
             raise InvalidValue("observation", shown(observation), self._wanted())
         situation = 0
-        for digit, count, least in zip(digits.tolist(), self.counts, self.least):
+        for digit, count, least in zip(digits.ravel().tolist(), self.counts, self.least):
             if not 0 <= digit - least < count:
                 raise InvalidValue("observation", shown(observation), self._wanted())
             situation = situation * count + digit - least
@@ -107,7 +108,8 @@ class TileSituations:
     def even(cls, space: spaces.Space[Any], tiles: int | Sequence[int]) -> TileSituations:
         """Tiles of equal width between the bounds of a Box.
 
-        tiles: how many a dimension, one number for all or one each, >= 1; 1 leaves a dimension out.
+        tiles: how many a dimension, one number for all or one each, in [1, 1,000,000]; 1 leaves a
+        dimension out.
         Raises InvalidValue, likewise where a dimension that is cut has no bounds.
         """
         low, high = _bounds(space)
@@ -145,8 +147,8 @@ class TileSituations:
         values repeat there are fewer tiles. What random actions never reach lies in the outermost
         tiles.
 
-        quantiles: tiles a dimension, one number for all or one each, >= 1; warm_up: how many
-        observations, at least as many as quantiles; seed: of episodes and actions. Raises
+        quantiles: tiles a dimension, one number for all or one each, in [1, 1,000,000]; warm_up:
+        how many observations, at least as many as quantiles; seed: of episodes and actions. Raises
         InvalidValue, likewise where an observation is not finite.
         """
         low, _ = _bounds(env.observation_space)
@@ -172,11 +174,11 @@ class TileSituations:
 
     def __call__(self, observation: Any) -> int:
         """The id of an observation."""
-        values = np.ravel(observation).tolist()
-        if len(values) != len(self.edges):
+        values = array_of(observation)
+        if values is None or values.size != len(self.edges):
             raise InvalidValue("observation", shown(observation), f"{len(self.edges)} numbers")
         situation = 0
-        for value, edges in zip(values, self.edges):
+        for value, edges in zip(values.ravel().tolist(), self.edges):
             if value != value:
                 raise InvalidValue("observation", shown(observation), "numbers, none of them NaN")
             situation = situation * (len(edges) + 1) + bisect_right(edges, value)
@@ -210,6 +212,8 @@ def _counts(name: str, given: int | Sequence[int], dimensions: int) -> list[int]
         raise InvalidValue(name, shown(given), f"one number, or {dimensions}, one a dimension")
     for count in counts:
         require_whole(name, count, 1)
+        if count > _MOST_TILES:
+            raise InvalidValue(name, count, f"at most {_MOST_TILES} a dimension")
     return counts
 
 

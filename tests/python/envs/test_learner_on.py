@@ -459,13 +459,24 @@ def test_an_object_that_chooses_what_is_not_allowed_is_refused_and_told_so():
     assert agent.cancelled == 1
 
 
-@pytest.mark.parametrize("mask", [[True], np.ones((2, 1)), np.zeros(2)])
-def test_a_mask_that_is_none_or_allows_nothing_is_refused(mask):
+@pytest.mark.parametrize(
+    "mask", [[True], np.ones((2, 1)), np.zeros(2), "ab", [np.nan, 1], [2, 1], [[1], 1]]
+)
+@pytest.mark.parametrize("make", [paper, agents.QLearning, devlearn.RandomAgent])
+def test_a_mask_that_is_none_or_allows_nothing_is_refused(make, mask):
     class Wrong(Corridor):
         def reset(self, **named):
             return super().reset(**named)[0], {"action_mask": mask}
 
-    refused(lambda: on_corridor(paper(), Wrong()).run(1))
+    refused(lambda: on_corridor(make(), Wrong()).run(1), 'info["action_mask"]')
+
+
+def test_infos_that_are_no_dict_are_refused():
+    class Silent(Corridor):
+        def reset(self, **named):
+            return super().reset(**named)[0], None
+
+    refused(lambda: on_corridor(paper(), Silent()).run(1), "info", "None")
 
 
 # --- what it cannot do ----------------------------------------------------------------------------
@@ -553,6 +564,8 @@ WRONG = [
     ("estimate", -1.0),
     ("estimate", np.nan),
     ("estimate", "far"),
+    ("estimate", "1"),
+    ("estimate", 10**400),
     ("estimate", None),
 ]
 
@@ -585,12 +598,15 @@ RUNS = [
     {"episodes": 1, "step_limit": 0},
     {"episodes": 1, "seed": -1},
     {"episodes": 1, "first": -1},
+    {"episodes": 1, "progress": 3},
 ]
 
 
 @pytest.mark.parametrize("arguments", RUNS)
 def test_runs_that_cannot_be_are_refused(arguments):
-    refused(lambda: on_corridor(paper()).run(**arguments))
+    on = on_corridor(paper())
+    refused(lambda: on.run(**arguments))
+    assert on.env.resets == []
 
 
 def test_a_reward_above_0_needs_a_cost_of_the_user_s_where_costs_are_learned_from():
@@ -611,7 +627,7 @@ def test_a_reward_above_0_needs_a_cost_of_the_user_s_where_costs_are_learned_fro
     assert [agent.value(place, 1) for place in range(3)] == [-1.25, -0.5, 1.0]
 
 
-@pytest.mark.parametrize("reward", [np.nan, np.inf])
+@pytest.mark.parametrize("reward", [np.nan, np.inf, None, "1", 10**400, np.ones(2)])
 def test_a_reward_that_is_no_number_is_refused(reward):
     class Broken(Corridor):
         def step(self, action):

@@ -51,7 +51,7 @@ def test_what_a_space_draws_is_one_of_its_situations(space):
     assert all(0 <= situations(space.sample()) < situations.count for _ in range(100))
 
 
-@pytest.mark.parametrize("observation", [7, -1, 2.0, "3", (1, 2), None])
+@pytest.mark.parametrize("observation", [7, -1, 2.0, "3", (1, 2), None, [[1], [2, 3]]])
 def test_an_observation_that_a_space_does_not_hold_is_refused(observation):
     refused(lambda: DiscreteSituations.of(spaces.Discrete(7))(observation), "observation")
 
@@ -106,6 +106,7 @@ def test_even_tiles_are_equally_wide():
     np.testing.assert_allclose(situations.edges[0], [-0.5, 0, 0.5])
     np.testing.assert_allclose(situations.edges[1], [2, 4, 6, 8])
     assert TileSituations.even(space, 1).count == 1
+    refused(lambda: TileSituations.even(space, 10**9), "tiles")
 
 
 @pytest.mark.parametrize("bound", [np.inf, np.finfo(np.float32).max])
@@ -127,7 +128,7 @@ def test_edges_that_are_none_are_refused(edges):
     assert error.quantity.startswith("TileSituations.edges")
 
 
-@pytest.mark.parametrize("observation", [[0.0], [0.0] * 3, [np.nan, 0.0]])
+@pytest.mark.parametrize("observation", [[0.0], [0.0] * 3, [np.nan, 0.0], [0, [1]], "ab"])
 def test_an_observation_of_another_size_or_without_a_value_is_refused(observation):
     refused(lambda: TileSituations([[0.5], [0.5]])(observation), "observation")
 
@@ -179,6 +180,7 @@ def test_what_a_warm_up_cannot_mean_is_refused_before_it_begins():
     refused(of(0), "quantiles")
     refused(of([2, 2]), "quantiles")
     refused(of(2.5), "quantiles")
+    refused(of(10**9, warm_up=10**9), "quantiles")
     refused(of(20, warm_up=10), "warm_up")
     refused(of(2, seed=-1), "seed")
 
