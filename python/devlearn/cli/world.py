@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .console import say, warn
@@ -164,8 +165,9 @@ def _add_import(tasks: Any) -> None:
     parser._negative_number_matcher = re.compile(r"-\.?\d")
     parser.add_argument("map", help="the map's YAML")
     parser.add_argument(
-        "--output", default="world.json", metavar="FILE", help="to write (default: %(default)s)"
-    )
+        "--output", default="world.json", metavar="FILE",
+        help="to write, .json (default: %(default)s)",
+    )  # fmt: skip
     parser.add_argument(
         "--start", metavar="X,Y,HEADING", help="in metres and degrees (default: drawn)"
     )
@@ -189,6 +191,7 @@ def _add_import(tasks: Any) -> None:
 def _import(options: argparse.Namespace) -> int:
     from ..maps import import_ros_map
 
+    _require_output(options.output)
     made = import_ros_map(
         options.map,
         start=_numbers("--start", options.start, 3),
@@ -251,14 +254,16 @@ def _add_random(tasks: Any) -> None:
         help="from 0 to 1 (default: %(default)s)",
     )  # fmt: skip
     parser.add_argument(
-        "--output", default="world.json", metavar="FILE", help="to write (default: %(default)s)"
-    )
+        "--output", default="world.json", metavar="FILE",
+        help="to write, .json (default: %(default)s)",
+    )  # fmt: skip
     parser.set_defaults(verb=_random)
 
 
 def _random(options: argparse.Namespace) -> int:
     from .._core import World
 
+    _require_output(options.output)
     world = World.random(options.kind, options.seed, difficulty=options.difficulty)
     world.save(options.output)
     for line in _told(world):
@@ -268,6 +273,16 @@ def _random(options: argparse.Namespace) -> int:
 
 
 # --- what several take ----------------------------------------------------------------------------
+
+
+def _require_output(path: str) -> None:
+    """Refuses, before any work, a file that is not meant, such as the map, or no folder."""
+    from ..errors import FileError, InvalidValue
+
+    if not path.lower().endswith(".json"):
+        raise InvalidValue("--output", repr(path), "a name that ends in .json")
+    if not Path(path).parent.is_dir():
+        raise FileError(path, "", "no such folder", "a file in a folder that is there")
 
 
 def _add_radius(parser: Any) -> None:

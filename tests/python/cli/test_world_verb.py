@@ -142,3 +142,19 @@ def test_a_world_drawn_by_chance_is_that_of_its_kind_seed_and_difficulty(tmp_pat
     assert World.load(drawn_world) == World.random("rooms", 7, difficulty=0.8)
     assert out.endswith(f"written: {drawn_world}\n")
     assert "corridors" in refusal(capsys, "world", "random", "caves")
+
+
+@pytest.mark.parametrize("task", ["import", "random"])
+def test_a_world_is_written_over_no_map_and_where_there_is_a_folder_or_nothing_is_done(
+    tmp_path, capsys, task
+):
+    path = drawn(tmp_path, ROOM)
+    image = tmp_path / "map.pgm"
+    before = path.read_bytes(), image.read_bytes()
+    # A map that is none and a kind that is none: what is written to is looked at first.
+    for what in (path if task == "import" else "rooms", "nowhere"):
+        for output in (path, image, tmp_path / "world", tmp_path):
+            assert "ends in .json" in refusal(capsys, "world", task, what, "--output", output)
+        nowhere = tmp_path / "none" / "world.json"
+        assert "no such folder" in refusal(capsys, "world", task, what, "--output", nowhere)
+    assert (path.read_bytes(), image.read_bytes()) == before
