@@ -136,7 +136,7 @@ def test_a_configuration_survives_dict_json_pickle_copy_and_repr(config):
         pickle.loads(pickle.dumps(config)),
         copy.copy(config),
         copy.deepcopy(config),
-        eval(repr(config), vars(devlearn)),
+        eval(repr(config), {name: getattr(devlearn, name) for name in devlearn.__all__}),
         config.replace(),
         config.replace(**config.to_dict()),
     ):
