@@ -43,12 +43,23 @@ std::vector<std::pair<World, std::int64_t>> earlier_worlds_of(const Trial& trial
   return worlds;
 }
 
-RecordObject as_record(const Trial& trial, Record&& record) {
+RecordObject as_record(const Trial& trial, Record&& record, const py::object& learner) {
   return RecordObject(py::module_::import("devlearn.record")
                           .attr("Record")
                           .attr("_of_trial")(columns(std::move(record)), trial.world(),
                                              trial.config(), trial.seed(), agent_of(trial),
-                                             names_of(trial.parts()), earlier_worlds_of(trial)));
+                                             names_of(trial.parts()), earlier_worlds_of(trial),
+                                             learner));
+}
+
+// The snapshot of a trial's learner.
+py::object learner_bytes(const py::object& self) {
+  const py::object learner = self.attr("learner");
+  if (learner.is_none()) {
+    throw InvalidValue("learner", "True, and an agent that is none",
+                       "False, or a Learner or AdaptiveLearner as the agent");
+  }
+  return learner.attr("to_bytes")();
 }
 
 using Clock = std::chrono::steady_clock;
@@ -59,7 +70,7 @@ using Told = py::typing::Callable<py::object(std::int64_t, std::int64_t)>;
 
 /// How Python asks for a phase.
 struct Asked {
-  bool echoes, rounds_only;
+  bool echoes, rounds_only, learner;
   Tally* tally;
   std::optional<EventObject> stop;
   std::optional<Told> progress;
@@ -79,6 +90,7 @@ template <typename Phase>
 RecordObject run_phase(py::object& self, std::int64_t total, bool of_rounds, const Asked& asked,
                        const Phase& phase) {
   auto& trial = self.cast<Trial&>();
+  const py::object learner = asked.learner ? learner_bytes(self) : py::none();
   const InHand in_hand(trial, InHand::For::kRunning), tally_in_hand(asked.tally);
   Record record;
   auto told = Clock::now();
@@ -99,10 +111,11 @@ RecordObject run_phase(py::object& self, std::int64_t total, bool of_rounds, con
     watch.rethrow();
     if (asked.progress && !stopped) (*asked.progress)(total, total);
   } catch (const std::exception&) {
-    if (!record.rounds.empty()) self.attr("interrupted") = as_record(trial, std::move(record));
+    if (!record.rounds.empty())
+      self.attr("interrupted") = as_record(trial, std::move(record), learner);
     throw;
   }
-  return as_record(trial, std::move(record));
+  return as_record(trial, std::move(record), learner);
 }
 
 /// Defines a phase of so many rounds or steps, the first of its counts.
@@ -112,19 +125,19 @@ void def_phase(py::class_<Trial>& cls, const char* name, Phase phase, bool of_ro
   cls.def(
       name,
       [phase, of_rounds](py::object& self, Counts... counts, bool echoes, bool rounds_only,
-                         std::optional<Tally*> tally, std::optional<EventObject> stop,
+                         bool learner, std::optional<Tally*> tally, std::optional<EventObject> stop,
                          std::optional<Told> progress) {
         const std::int64_t all[] = {counts.value...};
-        return run_phase(
-            self, all[0], of_rounds,
-            {echoes, rounds_only, tally.value_or(nullptr), std::move(stop), std::move(progress)},
-            [&](Trial& trial, Record& record, const RunOptions& options) {
-              (trial.*phase)(record, counts.value..., options);
-            });
+        return run_phase(self, all[0], of_rounds,
+                         {echoes, rounds_only, learner, tally.value_or(nullptr), std::move(stop),
+                          std::move(progress)},
+                         [&](Trial& trial, Record& record, const RunOptions& options) {
+                           (trial.*phase)(record, counts.value..., options);
+                         });
       },
       named..., py::kw_only(), py::arg("echoes") = false, py::arg("rounds_only") = false,
-      py::arg("tally") = py::none(), py::arg("stop") = py::none(), py::arg("progress") = py::none(),
-      doc);
+      py::arg("learner") = false, py::arg("tally") = py::none(), py::arg("stop") = py::none(),
+      py::arg("progress") = py::none(), doc);
 }
 
 /// What Python reads of a trial that no other thread runs.
@@ -205,7 +218,8 @@ void bind_trial(py::module_& m) {
       "`steps` steps from where the robot is, in the present round.\n\n"
       "All phases take the same options. `echoes` records the sonars, too. With `rounds_only` the\n"
       "record holds `rounds` and no steps or poses, and memory does not grow with steps; not\n"
-      "together with echoes. The steps are counted into `tally`, too, the finished ones also "
+      "together with echoes. With `learner` the record carries the learner as the phase found it,\n"
+      "for `devlearn view`. The steps are counted into `tally`, too, the finished ones also "
       "where\n"
       "the phase is not. `stop`, a threading.Event or what has its is_set(), ends the phase "
       "within\n"

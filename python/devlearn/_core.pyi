@@ -3487,6 +3487,7 @@ class Trial:
         *,
         echoes: bool = False,
         rounds_only: bool = False,
+        learner: bool = False,
         tally: Tally | None = None,
         stop: threading.Event | None = None,
         progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
@@ -3500,6 +3501,7 @@ class Trial:
         *,
         echoes: bool = False,
         rounds_only: bool = False,
+        learner: bool = False,
         tally: Tally | None = None,
         stop: threading.Event | None = None,
         progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
@@ -3514,6 +3516,7 @@ class Trial:
         *,
         echoes: bool = False,
         rounds_only: bool = False,
+        learner: bool = False,
         tally: Tally | None = None,
         stop: threading.Event | None = None,
         progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
@@ -3536,6 +3539,7 @@ class Trial:
         *,
         echoes: bool = False,
         rounds_only: bool = False,
+        learner: bool = False,
         tally: Tally | None = None,
         stop: threading.Event | None = None,
         progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
@@ -3545,7 +3549,8 @@ class Trial:
 
         All phases take the same options. `echoes` records the sonars, too. With `rounds_only` the
         record holds `rounds` and no steps or poses, and memory does not grow with steps; not
-        together with echoes. The steps are counted into `tally`, too, the finished ones also where
+        together with echoes. With `learner` the record carries the learner as the phase found it,
+        for `devlearn view`. The steps are counted into `tally`, too, the finished ones also where
         the phase is not. `stop`, a threading.Event or what has its is_set(), ends the phase within
         50 ms of being set, from another thread too; what is finished is returned as ever.
         `progress` is called as progress(done, total) ten times a second at most, in steps (in

@@ -61,6 +61,9 @@ class Record:  # noqa: D101 - made of the columns
     configuration, seed and agent; ``evaluation`` and ``situations`` by name, where they are one's
     own; where the trial's world was changed, ``earlier_worlds``, each with ``steps``, the number
     made by then.
+
+    ``learner`` is a snapshot of the learner as it was before the first step, as its ``to_bytes``
+    gave it, where a phase was asked for it (``learner=True``); else None.
     """
 
     round: npt.NDArray[np.int32]
@@ -86,15 +89,22 @@ class Record:  # noqa: D101 - made of the columns
     heading: npt.NDArray[np.float64]
     rounds: npt.NDArray[np.void]
     echoes: npt.NDArray[np.float64] | None
+    learner: bytes | None
     _origin: tuple[_core.World, _core.TrialConfig, int, type, Mapping[str, str], list[_Earlier]]
 
     def __init__(
-        self, columns: Mapping[str, npt.NDArray[Any]], provenance: Mapping[str, Any]
+        self,
+        columns: Mapping[str, npt.NDArray[Any]],
+        provenance: Mapping[str, Any],
+        learner: bytes | None = None,
     ) -> None:
         """From the columns above and a provenance; raises InvalidValue where they do not fit."""
         _check(columns)
         _check_provenance(provenance)
+        if not isinstance(learner, (bytes, type(None))):
+            raise WrongType("learner", shown(learner), "what to_bytes of a learner gives, or None")
         self._take(columns)
+        self.learner = learner
         self.provenance = dict(provenance)
 
     def _take(self, columns: Mapping[str, npt.NDArray[Any]]) -> None:
@@ -116,9 +126,11 @@ class Record:  # noqa: D101 - made of the columns
         agent: object,
         own: Mapping[str, str],
         earlier: list[_Earlier],
+        learner: bytes | None,
     ) -> Record:
         record = cls.__new__(cls)
         record._take(columns)  # which fit, as the trial made them
+        record.learner = learner
         record._origin = world, config, seed, type(agent), own, earlier
         return record
 
@@ -134,7 +146,7 @@ class Record:  # noqa: D101 - made of the columns
 
     @classmethod
     def concatenate(cls, records: Sequence[Record]) -> Record:
-        """Records of one trial, one after the other, as one; the provenance is the first's.
+        """Records of one trial, one after the other; provenance and learner are the first's.
 
         Where one goes on with the round and from the pose that the one before ended with, that
         round becomes one, as if it had never been stopped.
@@ -171,7 +183,7 @@ class Record:  # noqa: D101 - made of the columns
         columns["rounds"] = np.delete(rounds, [entry for entry, _ in goes_on])
         twice = [pose for _, pose in goes_on if pose > 0]  # but for records of rounds only
         columns |= {n: np.delete(p, twice) for n, p in poses.items()}
-        return cls(columns, records[0].provenance)
+        return cls(columns, records[0].provenance, records[0].learner)
 
     def __len__(self) -> int:
         """How many steps."""
@@ -196,11 +208,12 @@ class Record:  # noqa: D101 - made of the columns
         return column
 
     def __eq__(self, other: object) -> bool:
-        """Whether provenance and all columns are the same, value by value."""
+        """Whether provenance, learner and all columns are the same, value by value."""
         if not isinstance(other, Record):
             return NotImplemented
         return (
             self.provenance == other.provenance
+            and self.learner == other.learner
             and tuple(self) == tuple(other)
             and all(_same(self[name], other[name]) for name in self)
         )
@@ -277,7 +290,8 @@ class Record:  # noqa: D101 - made of the columns
     def part(self, entries: slice) -> Record:
         """The record of some entries of ``rounds`` alone, such as ``slice(2, None)``.
 
-        Raises InvalidValue for a record of rounds only.
+        It carries the learner where it begins where this one does; ``analysis.Replay`` tells the
+        learner of later steps. Raises InvalidValue for a record of rounds only.
         """
         first, last, stride = entries.indices(len(self.rounds))
         if stride != 1:
@@ -289,7 +303,7 @@ class Record:  # noqa: D101 - made of the columns
         columns["rounds"] = self.rounds[first:last]
         if self.echoes is not None:
             columns["echoes"] = self.echoes[start:stop]
-        return Record(columns, self.provenance)
+        return Record(columns, self.provenance, self.learner if start == 0 else None)
 
     def _require_steps(self) -> None:
         if self.rounds_only:
@@ -317,6 +331,8 @@ class Record:  # noqa: D101 - made of the columns
         columns = {name: getattr(self, name) for name in (*STEP_COLUMNS, *POSE_COLUMNS, "rounds")}
         if self.echoes is not None:
             columns["echoes"] = self.echoes
+        if self.learner is not None:
+            columns["learner"] = np.frombuffer(self.learner, np.uint8)
         header = {"format": FORMAT, "version": FORMAT_VERSION, "provenance": self.provenance}
         content = io.BytesIO()
         np.savez_compressed(content, header=np.array(json.dumps(header)), **columns)
@@ -339,9 +355,9 @@ class Record:  # noqa: D101 - made of the columns
 
     @classmethod
     def _of_npz(cls, file: IO[bytes], name: str) -> Record:
-        columns, provenance = cls._in_npz(file, name)
+        columns, provenance, learner = cls._in_npz(file, name)
         try:
-            record = cls(columns, provenance)
+            record = cls(columns, provenance, learner)
             _core.require_record(record)
         except InvalidValue as error:
             field = error.quantity.removeprefix("record.")
@@ -349,8 +365,10 @@ class Record:  # noqa: D101 - made of the columns
         return record
 
     @staticmethod
-    def _in_npz(file: IO[bytes], name: str) -> tuple[dict[str, npt.NDArray[Any]], Any]:
-        names = ("header", *STEP_COLUMNS, *POSE_COLUMNS, "rounds", "echoes")
+    def _in_npz(
+        file: IO[bytes], name: str
+    ) -> tuple[dict[str, npt.NDArray[Any]], Any, bytes | None]:
+        names = ("header", *STEP_COLUMNS, *POSE_COLUMNS, "rounds", "echoes", "learner")
         found = _npz.Columns(file, name, dict.fromkeys(names))
         header = _npz.json_object(found.text("header"), name, "header")
         if header.get("format") != FORMAT:
@@ -378,7 +396,10 @@ class Record:  # noqa: D101 - made of the columns
         columns["rounds"] = rounds
         if "echoes" in found:
             columns["echoes"] = found.array("echoes", np.dtype(np.float64), (steps, None))
-        return columns, header.get("provenance")
+        learner = None
+        if "learner" in found:
+            learner = found.array("learner", np.dtype(np.uint8), (None,)).tobytes()
+        return columns, header.get("provenance"), learner
 
     @classmethod
     def _of_snapshot(cls, file: IO[bytes], name: str) -> Record:

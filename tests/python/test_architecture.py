@@ -58,6 +58,7 @@ def test_the_help_of_the_command_line_loads_nothing_that_it_does_not_need():
         "devlearn.cli.console",
         "devlearn.cli.run",
         "devlearn.cli.sweep",
+        "devlearn.cli.view",
         "devlearn.cli.world",
         "devlearn.errors",
     }
@@ -151,8 +152,9 @@ ROOMS = {
     "paper": {"analysis", "plots", "experiments"},
     "comparison": {"analysis", "plots", "experiments"},
     "maps": set(),
-    "cli": {"analysis", "plots", "experiments", "paper", "comparison", "maps"},
+    "cli": {"analysis", "plots", "experiments", "paper", "comparison", "maps", "viewer"},
     "envs": {"plots"},
+    "viewer": {"analysis"},
 }
 EXTRAS = {
     "matplotlib": "plots",

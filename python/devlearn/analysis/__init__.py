@@ -9,6 +9,7 @@ from .episodes import (
     find_window,
 )
 from .fields import PreferenceField, SefField, preference_field, sef_field
+from .replay import Replay, first_learner, parts
 from .rooms import Gap, Rooms
 from .ways import WayField
 
@@ -16,6 +17,7 @@ __all__ = [
     "Episode",
     "Gap",
     "PreferenceField",
+    "Replay",
     "Rooms",
     "SefField",
     "WayField",
@@ -24,6 +26,8 @@ __all__ = [
     "find_entry_and_window",
     "find_episodes",
     "find_window",
+    "first_learner",
+    "parts",
     "preference_field",
     "sef_field",
 ]

@@ -130,6 +130,7 @@ def _made(
     options: argparse.Namespace,
 ) -> Run:
     """Runs, and writes all there is to write."""
+    from ..analysis import parts
     from ..paper import schedule, survival
     from ..record import written_aside
 
@@ -145,7 +146,8 @@ def _made(
             folder, world, config, options.seed, planned, whence, options.echoes, options.save_every
         )
         made = schedule.run_of(whole, trial)
-        for name, record in zip(names, (made.first, made.second, made.paths)):
+        phases = (slice(0, 1), slice(1, 2), slice(2, None))
+        for name, record in zip(names, parts(whole, *phases)):
             record.save(folder / f"{name}.npz")
             if options.csv:
                 record.to_csv(folder / f"{name}.csv")

@@ -41,7 +41,8 @@ def begin(
     another run, finished or not, or some of ``files`` and no word of the run that they are of;
     unless they may be overwritten.
     """
-    whence = provenance_of(world, config, seed, _core.Learner()) | {
+    agent = _core.Trial(world, config, seed).agent
+    whence = provenance_of(world, config, seed, agent) | {
         "code": code_version(),
         "run": dict(planned),
     }

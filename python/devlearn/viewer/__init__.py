@@ -1,0 +1,5 @@
+"""To look at what was run: pages that play a record."""
+
+from .page import page, write_page
+
+__all__ = ["page", "write_page"]
