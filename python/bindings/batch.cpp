@@ -183,6 +183,25 @@ void bind_batch(py::module_& m) {
           "One step of every environment: motions[i], an index of M, in environment i. One that "
           "the robot's safety layer would not allow is made, too. Raises InvalidValue, also where "
           "autoreset is disabled and an episode has ended; then nothing was stepped.")
+      .def(
+          "drive_wheels",
+          [](Batch& self, const py::object& speeds) {
+            const InHand in_hand(self);
+            const py::ssize_t n = self.count();
+            const auto given =
+                row_each<double>("wheel_speeds", speeds, "iuf", {n, 2},
+                                 "left, right [m/s] of " + each_of(self, "pairs of wheel speeds"));
+            std::vector<WheelSpeeds> pairs;
+            const double* const values = given.data();
+            for (py::ssize_t i = 0; i < n; ++i) pairs.push_back({values[2 * i], values[2 * i + 1]});
+            const NoGil no_gil;
+            self.drive_wheels(pairs.data());
+          },
+          py::arg("speeds"),
+          "The same at constant wheel speeds, (count, 2): left, right [m/s], forwards or "
+          "backwards, each at most RobotDef.speed, as Robot.drive_wheels makes them. "
+          "`rows.allowed` "
+          "is of motions alone.")
       .def("__len__", &Batch::count)
       .def("__repr__", [](const Batch& self) {
         return py::str("<devlearn.Batch: {} environments, world {!r}>")

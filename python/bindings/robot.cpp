@@ -54,16 +54,34 @@ void bind_robot(py::module_& m) {
           "something to touch, or that pushes. Raises InvalidValue.")
       .def(
           "drive",
-          [](const Robot& self, const Pose& pose, double turn, double speed) {
+          [](const Robot& self, const Pose& pose, double turn, double speed, double time) {
+            require_finite("time", time);
             const Robot::Move move = [&] {
               const NoGil no_gil;
-              return self.drive(pose, turn, speed);
+              return self.drive(pose, turn, speed, time);
             }();
             return std::make_pair(move.pose, move.collided);
           },
-          py::arg("pose"), py::arg("turn"), py::arg("speed"),
+          py::arg("pose"), py::arg("turn"), py::arg("speed"), py::arg("time") = 0.0,
           "The same for any turn [degrees] and any speed of the drive from 0 m/s on, at most 1 m a "
           "step: what becomes of a motion that is not made exactly. Raises InvalidValue.")
+      .def(
+          "drive_wheels",
+          [](const Robot& self, const Pose& pose, double left, double right, double time) {
+            require_finite("time", time);
+            const Robot::Move move = [&] {
+              const NoGil no_gil;
+              return self.drive_wheels(pose, {left, right}, time);
+            }();
+            return std::make_pair(move.pose, move.collided);
+          },
+          py::arg("pose"), py::arg("left"), py::arg("right"), py::arg("time") = 0.0,
+          "The same at constant wheel speeds [m/s], forwards or backwards, their mean at most 1 m "
+          "a "
+          "step. What they ask for is an arc, of which the turn is (right - left) sample_time / "
+          "track; the body turns by half of that and drives straight along the arc's chord. It "
+          "always ends with the arc's heading and, where nothing is in the way, at the arc's end. "
+          "Raises InvalidValue.")
       .def(
           "allowed",
           [](const Robot& self, const Pose& pose, double time) {

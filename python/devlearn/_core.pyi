@@ -1806,9 +1806,20 @@ class Robot:
         pose: collections.abc.Sequence[float],
         turn: typing.SupportsFloat | typing.SupportsIndex,
         speed: typing.SupportsFloat | typing.SupportsIndex,
+        time: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> tuple[devlearn._types.Pose, bool]:
         """
         The same for any turn [degrees] and any speed of the drive from 0 m/s on, at most 1 m a step: what becomes of a motion that is not made exactly. Raises InvalidValue.
+        """
+    def drive_wheels(
+        self,
+        pose: collections.abc.Sequence[float],
+        left: typing.SupportsFloat | typing.SupportsIndex,
+        right: typing.SupportsFloat | typing.SupportsIndex,
+        time: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> tuple[devlearn._types.Pose, bool]:
+        """
+        The same at constant wheel speeds [m/s], forwards or backwards, their mean at most 1 m a step. What they ask for is an arc, of which the turn is (right - left) sample_time / track; the body turns by half of that and drives straight along the arc's chord. It always ends with the arc's heading and, where nothing is in the way, at the arc's end. Raises InvalidValue.
         """
     def sonar(
         self,
@@ -3792,6 +3803,10 @@ class Batch:
     ) -> None: ...
     def __len__(self) -> int: ...
     def __repr__(self) -> str: ...
+    def drive_wheels(self, speeds: typing.Any) -> None:
+        """
+        The same at constant wheel speeds, (count, 2): left, right [m/s], forwards or backwards, each at most RobotDef.speed, as Robot.drive_wheels makes them. `rows.allowed` is of motions alone.
+        """
     def poses(self) -> numpy.ndarray:
         """
         Where the robots truly are, whatever they sense of it: a copy, (count, 3) [m, m, degrees].

@@ -9,8 +9,8 @@ import devlearn
 import numpy as np
 import pytest
 from conftest import refused
-from devlearn import Pose, Robot, RobotDef, World
-from hypothesis import given
+from devlearn import Circle, Mover, MoverPath, Pose, Robot, RobotDef, World
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 EMPTY = Robot(World())
@@ -93,6 +93,85 @@ def test_eq_2_gives_the_wheels_their_speeds():
         assert right == pytest.approx(np.radians(angle) * 0.1 / (2 * 0.5), abs=1e-15)
     wide = Robot(World(), RobotDef(track=0.3))
     assert wide.turn_speeds(4)[1] == pytest.approx(np.radians(60) * 0.3)
+
+
+speeds = st.floats(-1, 1)
+
+
+@given(poses, speeds, speeds, st.floats(0.05, 0.5))
+def test_constant_wheel_speeds_lead_to_the_end_of_their_arc(pose, left, right, track):
+    robot = Robot(World(), RobotDef(track=track, sample_time=0.4))
+    assume(abs(left - right) > 1e-3)
+    after, collided = robot.drive_wheels(pose, left, right)
+    assert not collided
+    # About the centre of the arc, on the line through both wheels.
+    turn = 0.4 * (right - left) / track
+    radius = 0.5 * track * (right + left) / (right - left)
+    heading = np.radians(pose[2])
+    x = pose[0] + radius * (np.sin(heading + turn) - np.sin(heading))
+    y = pose[1] - radius * (np.cos(heading + turn) - np.cos(heading))
+    assert np.hypot(after.x - x, after.y - y) < 1e-9
+    assert abs((after.heading - pose[2] - np.degrees(turn) + 180) % 360 - 180) < 1e-9
+
+
+@given(poses, speeds, speeds)
+def test_the_same_wheel_speeds_backwards_lead_back(pose, left, right):
+    there, _ = EMPTY.drive_wheels(pose, left, right)
+    back, _ = EMPTY.drive_wheels(there, -left, -right)
+    assert np.hypot(back.x - pose[0], back.y - pose[1]) < 1e-12
+    assert abs((back.heading - pose[2] + 180) % 360 - 180) < 1e-9
+
+
+@given(poses, st.integers(0, 4), st.none() | st.floats(0.05, 0.5))
+def test_the_wheel_speeds_of_eq_2_one_after_the_other_are_the_motion(pose, motion, track):
+    robot = Robot(World(), RobotDef(track=track))
+    turned, _ = robot.drive_wheels(pose, *robot.turn_speeds(motion))
+    assert (turned.x, turned.y) == (pose[0], pose[1])
+    after, _ = robot.drive_wheels(turned, *robot.drive_speeds)
+    expected, _ = robot.step(pose, motion)
+    assert np.hypot(after.x - expected.x, after.y - expected.y) < 1e-12
+    assert abs((after.heading - expected.heading + 180) % 360 - 180) < 1e-9
+
+
+@given(poses)
+def test_equal_wheel_speeds_drive_as_the_motion_that_does_not_turn(pose):
+    assert EMPTY.drive_wheels(pose, 0.1, 0.1) == EMPTY.step(pose, 2)
+
+
+def test_a_wall_stops_wheels_forwards_and_backwards_and_the_heading_is_the_arc_s():
+    for heading, sign in ((180, 1), (0, -1)):
+        pose, collided = EMPTY.drive_wheels((0.11, 2, heading), 0.06 * sign, 0.1 * sign)
+        assert collided
+        assert 0.095 - 1e-6 <= pose.x <= 0.11
+        turn = np.degrees(0.5 * sign * 0.04 / 0.1)
+        assert pose.heading == pytest.approx((heading + turn) % 360)
+    pose, collided = EMPTY.drive_wheels((0.12, 2, 180), -0.1, 0.1)  # turns on the spot
+    assert (pose.x, pose.y, collided) == (0.12, 2, False)
+
+
+@pytest.mark.parametrize(
+    "speeds", [(2.1, 2.1), (-3, -1.5), (np.nan, 0), (0, np.inf), (-np.inf, np.inf)]
+)
+def test_wheel_speeds_that_lead_further_than_a_step_may_are_refused(speeds):
+    refused(lambda: EMPTY.drive_wheels((1, 1, 0), *speeds), "mean of the wheel speeds")
+
+
+def test_wheels_that_turn_beyond_all_numbers_and_places_without_room_are_refused():
+    slim = Robot(World(), RobotDef(track=1e-320))
+    refused(lambda: slim.drive_wheels((1, 1, 0), -1, 1), "turn of the wheel speeds")
+    refused(lambda: EMPTY.drive_wheels((0, 1, 0), 0.1, 0.1), "pose")
+
+
+def test_what_moves_is_looked_at_when_wheels_drive_and_when_anything_does():
+    patrol = Mover(Circle((0, 0), 0.2), MoverPath([(4, 1), (1, 1)], 0.1, "stop"))
+    robot = Robot(World(movers=[patrol]))
+    for drive in (
+        lambda time: robot.drive_wheels((1.4, 1, 0), 0.1, 0.1, time),
+        lambda time: robot.drive((1.4, 1, 0), 0.0, 0.1, time),
+    ):
+        assert drive(0.0) == robot.step((1.4, 1, 0), 2) == ((1.45, 1, 0), False)
+        assert drive(27.0) == robot.step((1.4, 1, 0), 2, 27.0)
+        assert drive(27.0)[1]
 
 
 def test_echoes_are_an_array_and_end_at_walls_and_at_the_range():

@@ -1,6 +1,7 @@
 #include "body/kinematics.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "devlearn/detail/require.hpp"
 #include "devlearn/math.hpp"
@@ -13,6 +14,9 @@ namespace {
 constexpr double kFreeMargin = 0.0105;
 
 constexpr double kPi = 3.14159265358979323846;
+
+// Distance between the wheels [m].
+double track(const RobotDef& robot) noexcept { return robot.track.value_or(robot.radius); }
 
 }  // namespace
 
@@ -40,13 +44,25 @@ Pose driven(const Pose& pose, double heading, double length) noexcept {
 // Eq. 2: v_r = -v_l = dtheta track / (2 t_s)
 WheelSpeeds Robot::turn_speeds(int motion) const {
   const double turn = steering_angle(def_, motion) * (kPi / 180.0);
-  const double track = def_.track.value_or(def_.radius);
-  const double right = turn * track / (2.0 * def_.sample_time);
+  const double right = turn * track(def_) / (2.0 * def_.sample_time);
   return {-right, right};
 }
 
 // Eq. 2: v_r = v_l = v
 WheelSpeeds Robot::drive_speeds() const noexcept { return {def_.speed, def_.speed}; }
+
+// dtheta = (v_r - v_l) t_s / track; an arc's chord is as long as it by sin(a) / a, a = dtheta / 2.
+Arc Robot::arc(const WheelSpeeds& speeds) const {
+  const double mean = 0.5 * (speeds.left + speeds.right);
+  const double fastest = kLongestStep / def_.sample_time;
+  require_in("mean of the wheel speeds", mean, -fastest, fastest, "m/s");
+  const double half = 0.5 * (speeds.right - speeds.left) * def_.sample_time / track(def_);
+  const double turn = 2.0 * half * (180.0 / kPi);
+  require_finite("turn of the wheel speeds", turn);
+  constexpr double kStraight = 1e-9;  // sin(a) / a is 1 in double precision
+  if (std::abs(half) < kStraight) return {turn, mean};
+  return {turn, mean * std::min(1.0, direction(0.5 * turn).y / half)};
+}
 
 // Decided where it can be by what is known of the ends: no point on the way is nearer to anything
 // than an end less its way there.

@@ -9,6 +9,9 @@
 // Eq. 1 and 2, and where nothing stands in the way of them.
 namespace devlearn {
 
+/// No step is longer [m].
+constexpr double kLongestStep = 1.0;
+
 /// How far a motion turns, counter-clockwise [degrees]. Throws InvalidValue for one outside M.
 double steering_angle(const RobotDef& robot, int motion);
 /// v t_s, how far a step drives [m].

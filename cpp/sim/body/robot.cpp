@@ -21,7 +21,6 @@ namespace {
 // Box2D's slop: a body may rest this deep in what it touches [m]. Both what a step may return and
 // what counts as a place to stand follow it, so that every pose a step returns is accepted again.
 constexpr double kSlop = 0.005;
-constexpr double kLongestStep = 1.0;  // [m]
 
 // Where surfaces wedge the body deeper than one substep leads [m], the drive is done again with
 // more iterations of Box2D's solver.
@@ -86,6 +85,17 @@ Robot::Move Robot::drive(const Pose& pose, double turn, double speed, double tim
   require_finite("turn", turn);
   require_in("speed", speed, 0.0, kLongestStep / def_.sample_time, "m/s");
   return move(pose, turn, speed, time);
+}
+
+Robot::Move Robot::follow(const Pose& pose, const Arc& arc, double time) const {
+  const double speed = std::abs(arc.chord_speed);
+  require_finite("arc.turn", arc.turn);
+  require_in("|arc.chord_speed|", speed, 0.0, kLongestStep / def_.sample_time, "m/s");
+  // A round body drives backwards as it drives forwards when it has turned about.
+  const double about = arc.chord_speed < 0.0 ? 180.0 : 0.0;
+  Move made = move(pose, 0.5 * arc.turn + about, speed, time);
+  made.pose.heading = wrapped_heading(pose.heading + arc.turn);
+  return made;
 }
 
 Robot::Move Robot::move(const Pose& pose, double turn, double speed, double time) const {

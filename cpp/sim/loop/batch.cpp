@@ -91,6 +91,24 @@ void Batch::step(const std::int64_t* motions) {
   const std::size_t n = environments_.size();
   const int last = environments_.front().config().motion_count() - 1;
   require_each(n, [&](std::size_t i) { require_count("motion", motions[i], 0, last); });
+  step_each([&](std::size_t i) { return static_cast<int>(motions[i]); });
+}
+
+void Batch::drive_wheels(const WheelSpeeds* speeds) {
+  const Robot& robot = environments_.front().robot();
+  const double most = robot.def().speed;
+  require_each(environments_.size(), [&](std::size_t i) {
+    require_in("wheel_speeds.left", speeds[i].left, -most, most, "m/s");
+    require_in("wheel_speeds.right", speeds[i].right, -most, most, "m/s");
+    robot.arc(speeds[i]);
+  });
+  step_each([&](std::size_t i) { return speeds[i]; });
+}
+
+// By command(i) in environment i.
+template <typename Command>
+void Batch::step_each(const Command& command) {
+  const std::size_t n = environments_.size();
   if (config_.autoreset == Autoreset::kDisabled) {
     require_each(n, [&](std::size_t i) {
       if (!episodes_[i].over) return;
@@ -101,7 +119,7 @@ void Batch::step(const std::int64_t* motions) {
     if (episodes_[i].over) {
       begin(i);
     } else {
-      advance(i, static_cast<int>(motions[i]));
+      advance(i, command(i));
     }
   }
 }
@@ -121,11 +139,12 @@ void Batch::begin(std::size_t i, const Pose& pose) {
   outcomes_.begun[i] = 1;
 }
 
-void Batch::advance(std::size_t i, int motion) {
+template <typename Command>
+void Batch::advance(std::size_t i, const Command& command) {
   Environment& environment = environments_[i];
   Episode& episode = episodes_[i];
   const double estimate_before = environment.state().here.estimate;
-  const Environment::Transition made = environment.after(motion);
+  const Environment::Transition made = environment.after(command);
   environment.enter(made.next);
   const bool arrived = made.outcome.arrived;
   const bool too_long = ++episode.steps >= config_.step_limit && !arrived;

@@ -122,10 +122,17 @@ const Observation& Environment::look() {
   return state_.here;
 }
 
-Environment::Transition Environment::after(int motion) const {
+Environment::Transition Environment::after(int motion) const { return transition(motion); }
+
+Environment::Transition Environment::after(const WheelSpeeds& speeds) const {
+  return transition(speeds);
+}
+
+template <typename Command>
+Environment::Transition Environment::transition(const Command& command) const {
   Random noise = noise_to_come();
   // -> motion (Eq. 1)
-  const Robot::Move made = moved(motion, noise);
+  const Robot::Move made = moved(command, noise);
   const Pose estimate = config().noise.of_odometry() ? reckoned(made.pose, noise) : made.pose;
   // world -> sense -> situation, and its SEF (Eq. 6)
   Transition transition{sensed({made.pose, estimate, noise, state_.place.steps + 1}), 0.0, {}};
@@ -150,15 +157,33 @@ Robot::Move Environment::moved(int motion, Random& noise) const {
   const NoiseDef& def = config().noise;
   const RobotDef& body = config().robot;
   require_count("motion", motion, 0, config().motion_count() - 1);
-  if (def.slip > 0.0 && noise.uniform() < def.slip) {
-    motion = static_cast<int>(noise.index(static_cast<std::uint32_t>(config().motion_count())));
-  }
+  motion = slipped(noise).value_or(motion);
   if (!def.of_motion()) return robot().step(pose(), motion, time());
   const double turn = body.steering_angles[static_cast<std::size_t>(motion)];
   const double off = def.turn * noise.normal();
   const double faster = def.drive * noise.normal() / body.sample_time;
   return robot().drive(pose(), turn + off,
                        std::clamp(body.speed + faster, 0.0, 1.0 / body.sample_time), time());
+}
+
+Robot::Move Environment::moved(const WheelSpeeds& speeds, Random& noise) const {
+  const NoiseDef& def = config().noise;
+  Arc arc = robot().arc(speeds);
+  if (const std::optional<int> motion = slipped(noise)) return moved(*motion, noise);
+  if (def.of_motion()) {
+    const double fastest = 1.0 / config().robot.sample_time;
+    arc.turn += def.turn * noise.normal();
+    arc.chord_speed += def.drive * noise.normal() / config().robot.sample_time;
+    arc.chord_speed = std::clamp(arc.chord_speed, -fastest, fastest);
+  }
+  return robot().follow(pose(), arc, time());
+}
+
+// The motion that chance puts in the place of what was chosen.
+std::optional<int> Environment::slipped(Random& noise) const {
+  const double chance = config().noise.slip;
+  if (!(chance > 0.0) || noise.uniform() >= chance) return std::nullopt;
+  return static_cast<int>(noise.index(static_cast<std::uint32_t>(config().motion_count())));
 }
 
 // The pose that odometry makes of the way to another, seen from where it believed the robot to be.

@@ -24,9 +24,11 @@ _FRAMES_A_SECOND = 10
 class Navigate(gymnasium.Env[Any, Any]):
     """The paper's robot in any world, on its way to the target: ``devlearn/Navigate-v0``.
 
-    An action is a motion: an index of ``config.robot.steering_angles``, by which the robot turns
-    before it drives. An episode begins at the world's start, is terminated where the robot arrives
-    (d_g <= goal_radius), and truncated after ``step_limit`` steps without that.
+    An action is a motion, an index of ``config.robot.steering_angles`` by which the robot turns
+    before it drives; with ``actions="wheels"`` it is the speeds of the left and right wheel [m/s],
+    forwards or backwards, each at most ``config.robot.speed``, held for a sample time
+    (``Robot.drive_wheels``). An episode begins at the world's start, is terminated where the robot
+    arrives (d_g <= goal_radius), and truncated after ``step_limit`` steps without that.
 
     An observation is a dict of
 
@@ -36,7 +38,8 @@ class Navigate(gymnasium.Env[Any, Any]):
 
     or of those that ``observe`` names, ``goal_distance`` [m], an array of one, among them; with
     ``flat`` their numbers in a row, float64. ``info`` has ``action_mask``, int8, 1 for the motions
-    that the robot's safety layer allows (the others are made, too, where they are chosen);
+    that the robot's safety layer allows (the others are made, too, where they are chosen; there is
+    none of wheel speeds);
     ``goal_distance``, ``clearance`` [m], ``estimate`` (the cost to go at the least, in steps); and
     after a step ``smf``, ``cost`` and ``collided``.
 
@@ -46,6 +49,9 @@ class Navigate(gymnasium.Env[Any, Any]):
         A world, the name of one that ships, or its file.
     config : TrialConfig
         The robot, its situations and its evaluation. None: the paper's.
+    actions : str
+        ``"steering"``, a ``Discrete``, or ``"wheels"``, a ``Box``, for a robot without a safety
+        layer.
     reward : str
         ``"shaped"``: -cost and by how much the estimate of the cost to go fell, so that a straight
         step towards the target is worth about 0 and others less (potential-based, Ng et al. 1999;
@@ -77,6 +83,7 @@ class Navigate(gymnasium.Env[Any, Any]):
         world: Place = "paper",
         config: TrialConfig | None = None,
         *,
+        actions: str = "steering",
         reward: str = "shaped",
         observe: Sequence[str] | None = None,
         flat: bool = False,
@@ -88,6 +95,7 @@ class Navigate(gymnasium.Env[Any, Any]):
             1,
             world=world,
             config=config,
+            actions=actions,
             reward=reward,
             observe=observe,
             flat=flat,
@@ -125,22 +133,24 @@ class Navigate(gymnasium.Env[Any, Any]):
         return self._view.row(0), self._view.info()
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """Makes a motion.
+        """Makes a motion, or drives at wheel speeds.
 
-        Raises InvalidValue for one that there is not, or where the episode has ended.
+        Raises InvalidValue for an action that there is not, or where the episode has ended.
         """
-        action = action.item() if isinstance(action, np.ndarray) and action.ndim == 0 else action
-        if isinstance(action, (bool, np.bool_)) or not self.action_space.contains(action):
-            last = len(self._view.batch.config.robot.steering_angles) - 1
-            raise InvalidValue("action", shown(action), f"a whole number in [0, {last}]")
         view = self._view
-        view.batch.step(np.array([action]))
+        view.step(view.action(action)[None])
         self._watch()
         reward, over, cut = view.reward[0], view.terminated[0], view.truncated[0]
         return view.row(0), float(reward), bool(over), bool(cut), view.info()
 
     def action_masks(self) -> npt.NDArray[np.bool_]:
-        """Which motions the robot's safety layer allows now, as sb3-contrib asks for it."""
+        """Which motions the robot's safety layer allows now, as sb3-contrib asks for it.
+
+        Raises InvalidValue where actions are wheel speeds.
+        """
+        if isinstance(self.action_space, gymnasium.spaces.Box):
+            wanted = "'steering': masks are of motions"
+            raise InvalidValue("actions", "'wheels'", wanted)
         allowed: npt.NDArray[np.bool_] = self._view.batch.rows.allowed[0]
         return allowed.copy()
 

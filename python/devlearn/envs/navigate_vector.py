@@ -41,6 +41,7 @@ class NavigateVector(VectorEnv[Any, Any, Any]):
         world: Place = "paper",
         config: TrialConfig | None = None,
         *,
+        actions: str = "steering",
         reward: str = "shaped",
         observe: Sequence[str] | None = None,
         flat: bool = False,
@@ -57,6 +58,7 @@ class NavigateVector(VectorEnv[Any, Any, Any]):
             num_envs,
             world=world,
             config=config,
+            actions=actions,
             reward=reward,
             observe=observe,
             flat=flat,
@@ -108,13 +110,13 @@ class NavigateVector(VectorEnv[Any, Any, Any]):
         return self._view.observations(self._copy), self._view.infos(stepped=False)
 
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
-        """Makes a motion in every environment.
+        """Makes a motion in every environment, or drives at wheel speeds, a row each.
 
-        Raises InvalidValue for one that there is not and, where autoreset is disabled, where an
-        episode has ended; then nothing was stepped.
+        Raises InvalidValue for an action that there is not and, where autoreset is disabled, where
+        an episode has ended; then nothing was stepped.
         """
         view = self._view
-        view.batch.step(actions)
+        view.step(actions)
         return (
             view.observations(self._copy),
             view.reward.copy(),

@@ -35,6 +35,7 @@ class View:
         *,
         world: Place,
         config: TrialConfig | None,
+        actions: str,
         reward: str,
         observe: Sequence[str] | None,
         flat: bool,
@@ -48,6 +49,7 @@ class View:
         if not isinstance(flat, bool):
             raise WrongType("flat", shown(flat), "True or False")
         names = _known(observe, config)
+        self.action_space = _choice(actions, config)
         self.flat = flat
         self.batch = Batch(
             world if isinstance(world, World) else World.load(world),
@@ -61,18 +63,39 @@ class View:
                 random_starts=random_starts,
             ),
         )
-        self.action_space = spaces.Discrete(len(config.robot.steering_angles))
+        by_wheels = isinstance(self.action_space, spaces.Box)
+        self.step = self.batch.drive_wheels if by_wheels else self.batch.step
+        """A step by actions, one an environment."""
         self.observation_space = _space(self.batch, names, flat)
         # Arrays that show what is the case now.
         self._now = _columns(self.batch.rows, names)
         self._final = _columns(self.batch.final_rows, names) if autoreset == "same_step" else {}
-        self._told = _told(self.batch.rows)
-        self._told_finally = _told(self.batch.final_rows)
+        self._told = _told(self.batch.rows, masks=not by_wheels)
+        self._told_finally = _told(self.batch.final_rows, masks=not by_wheels)
         self._came_of_it = {name: getattr(self.batch, name) for name in ("smf", "cost", "collided")}
         self.reward, self.terminated = self.batch.reward, self.batch.terminated
         self.truncated, self.begun = self.batch.truncated, self.batch.begun
         self._everyone = np.ones(count, dtype=np.bool_)
         self._everyone.flags.writeable = False
+
+    # --- actions ----------------------------------------------------------------------------------
+
+    def action(self, given: object) -> Array:
+        """One of the action space. Raises InvalidValue for what is none."""
+        space = self.action_space
+        try:
+            row = np.asarray(given)
+        except ValueError:  # of rows of several lengths
+            row = np.array(None)
+        wheels = isinstance(space, spaces.Box)
+        if row.dtype.kind not in ("iuf" if wheels else "iu") or not space.contains(row):
+            last, most = self.batch.rows.allowed.shape[1] - 1, self.batch.config.robot.speed
+            motion, speeds = (
+                f"a whole number in [0, {last}]",
+                f"two numbers in [-{most}, {most}] m/s",
+            )
+            raise InvalidValue("action", shown(given), speeds if wheels else motion)
+        return row
 
     # --- observations -----------------------------------------------------------------------------
 
@@ -168,6 +191,18 @@ def require_seed(seed: object, count: int = 1) -> int:
     return value
 
 
+def _choice(actions: str, config: TrialConfig) -> spaces.Space[Any]:
+    robot = config.robot
+    if actions == "steering":
+        return spaces.Discrete(len(robot.steering_angles))
+    if actions != "wheels":
+        raise InvalidValue("actions", shown(actions), "'steering' or 'wheels'")
+    if robot.safety_margin is not None:
+        wanted = "None with actions='wheels': a safety layer rules out motions, not wheel speeds"
+        raise InvalidValue("RobotDef.safety_margin", shown(robot.safety_margin), wanted)
+    return spaces.Box(-robot.speed, robot.speed, (2,), dtype=np.float64)
+
+
 def _known(observe: Sequence[str] | None, config: TrialConfig) -> tuple[str, ...]:
     there = tuple(n for n in _OBSERVED if n != "sonars" or config.robot.sonar_count)
     if observe is None:
@@ -212,13 +247,14 @@ def _columns(rows: BatchRows, names: Sequence[str]) -> dict[str, Array]:
     return {name: columns[name] for name in names}
 
 
-def _told(rows: BatchRows) -> dict[str, Array]:
-    return {
-        "action_mask": rows.allowed.view(np.int8),  # as Discrete.sample takes it
+def _told(rows: BatchRows, masks: bool) -> dict[str, Array]:
+    told = {
         "goal_distance": rows.goal_distance,
         "clearance": rows.clearance,
         "estimate": rows.estimate,
     }
+    # As Discrete.sample takes it.
+    return {"action_mask": rows.allowed.view(np.int8), **told} if masks else told
 
 
 def _of(who: Array, columns: Mapping[str, Array]) -> dict[str, Array]:

@@ -29,6 +29,8 @@ def made(**asked):
         {"world": "office", "config": CAREFUL, "reward": "cost"},
         {"world": World(obstacles=[]), "config": TrialConfig(robot=RobotDef(sonar_count=0))},
         {"config": TrialConfig.adaptive(), "reward": "sparse", "render_mode": "rgb_array"},
+        {"actions": "wheels"},
+        {"actions": "wheels", "world": "office", "flat": True, "random_starts": True},
     ],
 )
 def test_gymnasium_s_checker_has_nothing_to_say(asked, monkeypatch):
@@ -128,6 +130,52 @@ def test_the_mask_is_what_the_safety_layer_allows_and_what_it_allows_does_not_to
     assert some > 10
 
 
+def test_a_step_at_wheel_speeds_is_the_robot_s():
+    robot = devlearn.Robot(World.load("paper"))
+    env = made(actions="wheels")
+    seen, info = env.reset(seed=0)
+    env.action_space.seed(2)
+    assert "action_mask" not in info
+    touched = 0
+    for _ in range(400):
+        left, right = action = env.action_space.sample() + 0.03  # forwards, on the whole
+        action = np.clip(action, env.action_space.low, env.action_space.high)
+        pose, collided = robot.drive_wheels(seen["pose"], *action)
+        seen, _, over, _, info = env.step(action)
+        assert tuple(seen["pose"]) == pose
+        assert info["collided"] == collided
+        touched += collided
+        assert not over
+    assert touched > 10
+
+
+def test_wheels_are_as_fast_as_the_robot():
+    for speed in (0.1, 0.3, 1 / 3, 2.0):
+        env = made(actions="wheels", config=TrialConfig(robot=RobotDef(speed=speed)))
+        assert env.action_space == gymnasium.spaces.Box(-speed, speed, (2,), dtype=np.float64)
+        scaled = gymnasium.wrappers.RescaleAction(env, -1.0, 1.0)
+        scaled.reset(seed=0)
+        for action in ([1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]):
+            scaled.step(np.array(action, dtype=np.float32))
+
+
+@pytest.mark.parametrize(
+    "action", [[0.1], [0.1, 0.1, 0.1], 0.1, 2, [0.11, 0], [0, np.nan], None, "left", [[0.1, 0.1]],
+               [True, False], [[0.1], 0.1]]
+)  # fmt: skip
+def test_wheel_speeds_that_there_are_not_are_refused_and_nothing_moves(action):
+    env = made(actions="wheels")
+    env.reset(seed=0)
+    said = refused(lambda: env.step(action), "action")
+    assert said.allowed == "two numbers in [-0.1, 0.1] m/s"
+    assert env.step([0.1, 0.1])[0]["pose"][0] == pytest.approx(World.load("paper").start.x + 0.05)
+
+
+def test_masks_are_of_motions():
+    refused(lambda: made(actions="wheels", config=CAREFUL), "RobotDef.safety_margin", "0.1")
+    refused(lambda: made(actions="wheels").action_masks(), "actions", "'wheels'")
+
+
 def test_a_reset_puts_the_robot_where_it_is_asked_to_be():
     env = made()
     seen, info = env.reset(options={"pose": (1.0, 2.0, 90.0)})
@@ -221,6 +269,8 @@ def test_without_a_display_a_person_is_told_what_to_do_once_and_nothing_breaks()
             "observe",
         ),
         ({"flat": 1}, "flat"),
+        ({"actions": "motors"}, "actions"),
+        ({"actions": None}, "actions"),
         ({"step_limit": 0}, "BatchConfig.step_limit"),
         ({"step_limit": 2.5}, "BatchConfig.step_limit"),
         ({"render_mode": "ansi"}, "render_mode"),

@@ -10,6 +10,10 @@ from conftest import refused
 from devlearn import (
     Batch,
     BatchConfig,
+    Circle,
+    Mover,
+    MoverPath,
+    MoverWalk,
     NoiseDef,
     Rectangle,
     Robot,
@@ -34,6 +38,22 @@ VARIANTS = {
         )
     },
     "from anywhere": {"random_starts": True},
+    "moving": {
+        "world": World(
+            start=(4.2, 4.2, 45.0),
+            obstacles=[Circle((3.4, 4.0), 0.2)],
+            movers=[
+                Mover(Circle((0, 0), 0.2), MoverPath([(4.7, 3.2), (3.0, 4.6)], 0.08, "back")),
+                Mover(Rectangle((0, 0), (0.3, 0.2)), MoverWalk(4, (1, 1), (3.6, 3.6), 15)),
+            ],
+        ),
+        "config": TrialConfig(walls_count=True),
+    },
+    "by wheels": {"actions": "wheels"},
+    "by noisy wheels": {
+        "actions": "wheels",
+        "config": TrialConfig(noise=NoiseDef(turn=5.0, drive=0.01, slip=0.1, odometry_turn=2.0)),
+    },
     "deaf": {"config": TrialConfig(robot=RobotDef(sonar_count=0)), "observe": ["situation"]},
 }
 # Near enough that a drawn walk arrives now and then.
@@ -62,8 +82,11 @@ def made(num_envs, **asked):
     )
 
 
-def walks(seed, steps, count):
-    return np.random.default_rng(seed).integers(5, size=(steps, count))
+def walks(variant, seed, steps, count):
+    random = np.random.default_rng(seed)
+    if VARIANTS[variant].get("actions") == "wheels":
+        return random.uniform(0.0, 0.1, size=(steps, count, 2))
+    return random.integers(5, size=(steps, count))
 
 
 @each_mode
@@ -77,7 +100,7 @@ def test_all_that_it_gives_is_what_gymnasium_s_own_vector_around_single_ones_giv
     assert envs.metadata["autoreset_mode"] == own.metadata["autoreset_mode"]
     assert equal(envs.reset(seed=11), own.reset(seed=11))
     ends = np.zeros(2, dtype=int)
-    for actions in walks(2, 300, 4):
+    for actions in walks(variant, 2, 300, 4):
         ours, theirs = envs.step(actions), own.step(actions)
         assert all(map(equal, ours, theirs))
         ends += ours[2].sum(), ours[3].sum()
@@ -95,7 +118,7 @@ def test_a_row_is_the_single_environment_of_seed_s_plus_i(variant):
     observations, _ = envs.reset(seed=s)
     seen, _ = alone.reset(seed=s + i)
     over, episodes = False, 0
-    for actions in walks(4, 300, 3):
+    for actions in walks(variant, 4, 300, 3):
         rows, rewards, terminated, truncated, _ = envs.step(actions)
         if over:
             seen, reward, over = alone.reset()[0], 0.0, False
@@ -276,6 +299,27 @@ def test_the_arrays_of_a_batch_outlive_it_and_nobody_writes_to_them():
     for array in (poses, reward):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 1.0
+
+
+@pytest.mark.parametrize(
+    "actions, quantity",
+    [
+        ([[0.1, 0.1]], "wheel_speeds"),
+        ([0.1, 0.1], "wheel_speeds"),
+        ([[0.1, 0.1, 0.1]] * 2, "wheel_speeds"),
+        ([[True, True]] * 2, "wheel_speeds"),
+        (None, "wheel_speeds"),
+        ([[0.1, 0.1], [0.11, 0.1]], "wheel_speeds.left[1]"),
+        ([[0.1, -0.11], [0.1, 0.1]], "wheel_speeds.right[0]"),
+        ([[0.1, 0.1], [0.1, np.nan]], "wheel_speeds.right[1]"),
+    ],
+)
+def test_wheel_speeds_that_there_are_not_are_refused_and_nothing_is_stepped(actions, quantity):
+    envs = made(2, actions="wheels")
+    before, _ = envs.reset(seed=0)
+    refused(lambda: envs.step(actions), quantity)
+    after, *_ = envs.step(np.zeros((2, 2)))
+    assert (after["pose"] == before["pose"]).all()
 
 
 @pytest.mark.parametrize(

@@ -119,6 +119,9 @@ class Batch {
   /// would not allow is made, too. Throws InvalidValue for a motion outside M and, where autoreset
   /// is disabled, for an episode that has ended; then nothing was stepped.
   void step(const std::int64_t* motions);
+  /// The same at wheel speeds, speeds[i] in environment i (Robot::drive_wheels): forwards or
+  /// backwards, each at most RobotDef.speed. Rows tell of motions alone which are allowed.
+  void drive_wheels(const WheelSpeeds* speeds);
 
   /// How many environments.
   int count() const noexcept { return static_cast<int>(environments_.size()); }
@@ -143,7 +146,10 @@ class Batch {
   Rows empty_rows() const;
   void begin(std::size_t i);
   void begin(std::size_t i, const Pose& pose);
-  void advance(std::size_t i, int motion);
+  template <typename Command>
+  void step_each(const Command& command);
+  template <typename Command>
+  void advance(std::size_t i, const Command& command);
   void tell(std::size_t i, Rows& rows);
   double reward_of(const Outcome& outcome, double estimate_before) const noexcept;
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "devlearn/agent.hpp"
@@ -81,6 +82,9 @@ class Environment {
   /// What would come of a motion, a function of state and motion alone; nothing is moved. Throws
   /// InvalidValue for a motion outside M; what functions of one's own throw comes out.
   Transition after(int motion) const;
+  /// Likewise, of a sample time at constant wheel speeds (Robot::drive_wheels). Noise spoils their
+  /// arc's turn and chord; where the robot slips, it makes a motion in their place.
+  Transition after(const WheelSpeeds& speeds) const;
   /// What is sensed where the robot is put, which knows its pose then. Throws InvalidValue where it
   /// does not fit.
   State standing(const Pose& pose) const;
@@ -116,7 +120,11 @@ class Environment {
   double time_of(const Place& place) const noexcept {
     return static_cast<double>(place.steps) * config().robot.sample_time;
   }
+  template <typename Command>
+  Transition transition(const Command& command) const;
   Robot::Move moved(int motion, Random& noise) const;
+  Robot::Move moved(const WheelSpeeds& speeds, Random& noise) const;
+  std::optional<int> slipped(Random& noise) const;
   Pose reckoned(const Pose& pose, Random& noise) const;
   State sensed(const Place& place) const;
   double clearance(const Place& place) const;

@@ -88,6 +88,12 @@ struct WheelSpeeds {
   double right = 0.0;  ///< [m/s]
 };
 
+/// Where constant wheel speeds lead in a sample time.
+struct Arc {
+  double turn = 0.0;         ///< from one end to the other, counter-clockwise [degrees]
+  double chord_speed = 0.0;  ///< of who drives straight between the ends; below 0: backwards [m/s]
+};
+
 /// The robot's body in a world: how it moves and what its sonars hear. Const throughout: a step is
 /// a pure function of (world, time, pose, motion). Any number of threads may ask one robot, or
 /// several, at once. Times are the world's [s]: they say where its movers are, and are looked at
@@ -123,6 +129,17 @@ class Robot {
   /// most 1 m a step: what becomes of a motion that is not made exactly. Throws InvalidValue.
   Move drive(const Pose& pose, double turn, double speed, double time = 0.0) const;
 
+  /// One sample time at constant wheel speeds, forwards or backwards. What they ask for is an arc;
+  /// as in Eq. 1 the body turns first and drives straight then: along the arc's chord, half of the
+  /// turn off, by the rules of step(). It always ends with the arc's heading and, where nothing is
+  /// in the way, at the arc's end; on its way it is off the arc by about |turn| / 8 of its length
+  /// at most, in radians. Throws InvalidValue as arc() and step() do.
+  Move drive_wheels(const Pose& pose, const WheelSpeeds& speeds, double time = 0.0) const {
+    return follow(pose, arc(speeds), time);
+  }
+  /// The same of an arc, whose chord is at most 1 m.
+  Move follow(const Pose& pose, const Arc& arc, double time = 0.0) const;
+
   /// Which motions the robot can make from a pose, as its safety layer sees it: those that keep its
   /// body further than safety_margin from obstacles, walls and movers all along the way of Eq. 1.
   /// Where none does, or there is no such layer, every one. `allowed` has room for a bool a motion;
@@ -142,6 +159,9 @@ class Robot {
   WheelSpeeds turn_speeds(int motion) const;
   /// Likewise of the drive.
   WheelSpeeds drive_speeds() const noexcept;
+  /// Eq. 2 the other way round, and for any speeds: dtheta = (v_r - v_l) t_s / track, on an arc as
+  /// long as their mean leads, at most 1 m. Throws InvalidValue.
+  Arc arc(const WheelSpeeds& speeds) const;
 
   /// Throws InvalidValue unless the body fits at the pose: inside the arena and, but for Box2D's
   /// slop of 0.005 m, in touch with nothing that stands still. Where movers pinned it, it is in

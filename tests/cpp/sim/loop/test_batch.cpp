@@ -111,6 +111,39 @@ TEST_CASE("each row is an environment alone with the same motions, to the bit") 
   CHECK(touched > 10);
 }
 
+TEST_CASE("each row at wheel speeds is an environment alone at the same ones, to the bit") {
+  TrialConfig config = near_config();
+  config.noise.turn = 5.0;
+  constexpr std::size_t kCount = 3;
+  Batch batch(World(near_def()), kCount, config, {}, 5);
+  std::vector<Environment> alone;
+  for (std::size_t i = 0; i < kCount; ++i) alone.emplace_back(World(near_def()), config, 5 + i);
+  Random random(2, "speeds");
+  int touched = 0;
+  for (int step = 0; step < 300; ++step) {
+    std::vector<WheelSpeeds> speeds;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      speeds.push_back({0.1 - 0.15 * random.uniform(), 0.1 - 0.15 * random.uniform()});
+    }
+    batch.drive_wheels(speeds.data());
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const bool begins = alone[i].arrived();
+      Environment::State next = alone[i].standing(near_def().start);
+      if (!begins) {
+        const Environment::Transition made = alone[i].after(speeds[i]);
+        next = made.next;
+        REQUIRE(batch.outcomes().smf[i] == made.outcome.smf);
+        touched += made.outcome.collided;
+      }
+      REQUIRE(batch.outcomes().begun[i] == begins);
+      alone[i].enter(next);
+      const Pose& pose = alone[i].pose();
+      REQUIRE(row(batch.rows().pose, i, 3) == std::vector<double>{pose.x, pose.y, pose.heading});
+    }
+  }
+  CHECK(touched > 10);
+}
+
 TEST_CASE("an episode is terminated at the target, and the next step begins another") {
   Batch batch(World(near_def()), 1, near_config());
   batch.step(&kOn);
@@ -255,5 +288,7 @@ TEST_CASE("what a batch cannot be made of is refused") {
   const std::vector<double> before = batch.rows().pose;
   const std::vector<std::int64_t> motions{2, 5};
   check_refused([&] { batch.step(motions.data()); }, "motion[1]", "5");
+  const std::vector<WheelSpeeds> speeds{{0.1, -0.1}, {0.1, 0.11}};
+  check_refused([&] { batch.drive_wheels(speeds.data()); }, "wheel_speeds.right[1]", "0.11");
   CHECK(batch.rows().pose == before);
 }

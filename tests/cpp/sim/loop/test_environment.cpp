@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "core/refusal.hpp"
 #include "devlearn/environment.hpp"
@@ -89,9 +92,56 @@ TEST_CASE("where a robot is put it knows its pose") {
   CHECK(environment.state().place.estimate == Pose{2.0, 1.5, 30.0});
 }
 
+TEST_CASE("constant wheel speeds are the robot's, spoiled by noise as motions are") {
+  const WheelSpeeds speeds{0.04, 0.1};
+  Environment exact(paper());
+  const Pose arc_end = exact.robot().drive_wheels(exact.pose(), speeds).pose;
+  CHECK(exact.after(speeds).next.place.pose == arc_end);
+  CHECK(exact.after(speeds).next.place.steps == 1);
+
+  TrialConfig config;
+  config.noise.turn = 2.0;
+  config.noise.drive = 0.005;
+  double turns = 0.0, squared_turns = 0.0, ways = 0.0, squared_ways = 0.0;
+  constexpr int kTimes = 4000;
+  for (int i = 0; i < kTimes; ++i) {
+    const Environment noisy(paper(), config, static_cast<std::uint64_t>(i));
+    const Pose from = noisy.pose(), to = noisy.after(speeds).next.place.pose;
+    const double turn = to.heading - arc_end.heading;
+    const double way = std::hypot(to.x - from.x, to.y - from.y) -
+                       std::hypot(arc_end.x - from.x, arc_end.y - from.y);
+    turns += turn / kTimes;
+    squared_turns += turn * turn / kTimes;
+    ways += way / kTimes;
+    squared_ways += way * way / kTimes;
+  }
+  // Within four standard errors.
+  CHECK(std::abs(turns) < 4.0 * 2.0 / std::sqrt(kTimes));
+  CHECK(std::abs(ways) < 4.0 * 0.005 / std::sqrt(kTimes));
+  CHECK(std::sqrt(squared_turns) == doctest::Approx(2.0).epsilon(0.045));
+  CHECK(std::sqrt(squared_ways) == doctest::Approx(0.005).epsilon(0.045));
+}
+
+TEST_CASE("where wheels slip, a motion of M is made") {
+  TrialConfig config;
+  config.noise.slip = 1.0;
+  std::vector<int> made(5);
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    const Environment environment(paper(), config, seed);
+    const Pose pose = environment.after(WheelSpeeds{0.1, 0.1}).next.place.pose;
+    for (int motion = 0; motion < 5; ++motion) {
+      made[static_cast<std::size_t>(motion)] +=
+          pose == environment.robot().step(environment.pose(), motion).pose;
+    }
+  }
+  CHECK(made[0] + made[1] + made[2] + made[3] + made[4] == 500);
+  for (const int count : made) CHECK(count > 60);
+}
+
 TEST_CASE("motions outside M and places where the body does not fit are refused by name") {
   const Environment environment(paper());
   check_refused([&] { environment.after(5); }, "motion", "5");
   check_refused([&] { environment.after(-1); }, "motion", "-1");
+  check_refused([&] { environment.after(WheelSpeeds{3.0, 3.0}); }, "mean of the wheel speeds", "3");
   CHECK_THROWS_AS(environment.standing(Pose{1.3, 1.4, 0.0}), InvalidValue);
 }
