@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 _DESCRIPTION = """\
 One experiment: two rounds of free learning, then path learning by rounds until
 the target is reached. Prints what came of it and writes the records, a table
-of the rounds and, with matplotlib, a picture. Its state is saved as it goes:
-stopped by Ctrl-C or a kill, it goes on from there when called again."""
+of the rounds of path learning (rounds.csv: round, steps, arrived, and began,
+how many steps were made before it) and, with matplotlib, a picture. Its state
+is saved as it goes: stopped by Ctrl-C or a kill, it goes on from there when
+called again."""
 _EPILOG = """\
 examples:
   devlearn run paper
@@ -152,9 +154,10 @@ def _made(
             if options.csv:
                 record.to_csv(folder / f"{name}.csv")
         with written_aside(folder / "rounds.csv", "w") as file:
-            file.write("round,steps,arrived\n")
+            file.write("round,steps,arrived,began\n")
             file.writelines(
-                f"{r['round']},{r['steps']},{int(r['arrived'])}\n" for r in made.paths.rounds
+                f"{r['round']},{r['steps']},{int(r['arrived'])},{r['began']}\n"
+                for r in made.paths.rounds
             )
         _draw(folder, made)
     except KeyboardInterrupt:

@@ -147,7 +147,8 @@ def test_run_writes_the_records_that_a_trial_makes(tmp_path):
     with (folder / "rounds.csv").open() as file:
         rows = list(csv.reader(file))
     rounds = expected["paths"].rounds
-    assert rows[0] == ["round", "steps", "arrived"]
+    assert rows[0] == ["round", "steps", "arrived", "began"]
+    assert rows[1][3] == "600"  # after free learning
     assert [[int(v) for v in row] for row in rows[1:]] == [
         [int(r[name]) for name in rows[0]] for r in rounds
     ]
