@@ -459,15 +459,18 @@ StartPlaces::StartPlaces(const Robot& robot, double goal_radius)
   }
 }
 
-// Where the body fits in a cell's middle it does so round it, so that a few draws suffice.
-Pose StartPlaces::draw(Random& random) const noexcept {
-  for (;;) {
+// Where the body fits in a cell's middle it does so round it, so that a few draws suffice, unless
+// movers are nearly everywhere.
+Pose StartPlaces::draw(Random& random, double time) const noexcept {
+  constexpr int kMostDraws = 10000;
+  for (int i = 0; i < kMostDraws; ++i) {
     const Point corner = corners_[random.index(static_cast<std::uint32_t>(corners_.size()))];
     const Point place{corner.x + cell_ * random.uniform(), corner.y + cell_ * random.uniform()};
-    if (world_.clearance(place, true) < room_) continue;
+    if (world_.clearance(place, true, time) < room_) continue;
     if (distance(place, world_.def().target) <= goal_radius_) continue;
     return {place.x, place.y, 360.0 * random.uniform()};
   }
+  return world_.def().start;
 }
 
 }  // namespace devlearn

@@ -125,7 +125,9 @@ void Batch::step_each(const Command& command) {
 }
 
 void Batch::begin(std::size_t i) {
-  begin(i, places_ ? places_->draw(episodes_[i].starts) : environments_[i].world().def().start);
+  const Environment& environment = environments_[i];
+  begin(i, places_ ? places_->draw(episodes_[i].starts, environment.time())
+                   : environment.world().def().start);
 }
 
 // An episode, by which nothing has come yet.

@@ -65,8 +65,9 @@ class StartPlaces {
   explicit StartPlaces(const Robot& robot, double goal_radius = 0.1);
 
   /// A pose drawn evenly over these places, but for the target's surroundings of goal_radius, and
-  /// over all headings. The body fits there and touches nothing.
-  Pose draw(Random& random) const noexcept;
+  /// over all headings. The body fits there and touches nothing, movers at that time [s] included;
+  /// where they leave no such place, it is the world's start.
+  Pose draw(Random& random, double time = 0.0) const noexcept;
 
  private:
   World world_;

@@ -4,6 +4,7 @@
 
 #include "core/refusal.hpp"
 #include "devlearn/error.hpp"
+#include "devlearn/random.hpp"
 #include "devlearn/shortest_path.hpp"
 
 using namespace devlearn;
@@ -79,4 +80,55 @@ TEST_CASE("Every motion list has its bound: no path is shorter than the crow fli
     CHECK(path.exact());
     CHECK(path.steps() >= std::ceil((std::hypot(2.8, 2.4) - 0.1) / 0.05));
   }
+}
+
+TEST_CASE("starts are drawn where no mover is at that time, and where one was or will be") {
+  WorldDef def;
+  def.width = def.height = 2.0;
+  def.start = {0.3, 0.3, 0.0};
+  def.target = {0.3, 1.7};
+  MoverPath path;
+  path.points = {{1.5, 0.4}, {1.5, 1.6}};
+  path.speed = 0.1;
+  path.then = MoverPath::Then::kStop;
+  def.movers = {Mover{Circle{{}, 0.35}, path}};
+  const World world(def);
+  const Robot robot(world, {});
+  const StartPlaces places(robot);
+  Random random(3, "starts");
+  for (const double time : {0.0, 6.0, 12.0}) {
+    CAPTURE(time);
+    const Point mover{1.5, 0.4 + 0.1 * time}, other{1.5, time < 12.0 ? 1.6 : 0.4};
+    int near_other = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Pose start = places.draw(random, time);
+      REQUIRE(std::hypot(start.x - mover.x, start.y - mover.y) > 0.35 + 0.1);
+      robot.require_free(start, time);
+      near_other += std::hypot(start.x - other.x, start.y - other.y) < 0.35;
+    }
+    CHECK(near_other > 100);
+  }
+}
+
+TEST_CASE("where movers leave no room for others an episode begins at the world's start") {
+  WorldDef def;
+  def.width = def.height = 2.0;
+  def.start = {1.0, 1.0, 30.0};
+  def.target = {0.3, 1.7};
+  // Four about the start, 0.102 m off, that go away to the walls and beyond.
+  const auto away = [&](Point from, Point to) {
+    MoverPath path;
+    path.points = {from, to};
+    path.speed = 0.1;
+    path.then = MoverPath::Then::kStop;
+    return path;
+  };
+  def.movers = {Mover{Rectangle{{}, 0.898, 2.0, 0.0}, away({0.449, 1.0}, {0.449, 1.9})},
+                Mover{Rectangle{{}, 0.898, 2.0, 0.0}, away({1.551, 1.0}, {1.551, 1.9})},
+                Mover{Rectangle{{}, 2.0, 0.898, 0.0}, away({1.0, 0.449}, {1.9, 0.449})},
+                Mover{Rectangle{{}, 2.0, 0.898, 0.0}, away({1.0, 1.551}, {1.9, 1.551})}};
+  const StartPlaces places(Robot(World(def), {}));
+  Random random(3, "starts");
+  CHECK(places.draw(random, 0.0) == def.start);
+  CHECK_FALSE(places.draw(random, 9.0) == def.start);
 }
