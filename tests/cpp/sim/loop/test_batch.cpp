@@ -9,6 +9,7 @@
 #include "core/refusal.hpp"
 #include "devlearn/batch.hpp"
 #include "devlearn/random.hpp"
+#include "sim/world/random_movers.hpp"
 
 using namespace devlearn;
 
@@ -109,6 +110,63 @@ TEST_CASE("each row is an environment alone with the same motions, to the bit") 
     }
   }
   CHECK(touched > 10);
+}
+
+TEST_CASE("each row of a world that moves is an environment alone, to the bit, at its own time") {
+  Random random(12, "moving worlds");
+  int near_movers = 0;
+  for (int worlds = 0; worlds < 4; ++worlds) {
+    const World world = random_moving_world(random, 3, 3, 3.0);
+    TrialConfig config;
+    config.walls_count = true;
+    config.robot.safety_margin = 0.02;
+    BatchConfig episodes = with(Autoreset::kNextStep, 50);
+    episodes.sonars = true;
+    episodes.random_starts = worlds % 2 == 0;
+    constexpr std::size_t kCount = 3;
+    Batch batch(world, kCount, config, episodes, 8);
+    std::vector<Environment> alone;
+    std::vector<int> steps(kCount);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      alone.emplace_back(world, config, 8 + i);
+      const double* const pose = &batch.rows().pose[3 * i];
+      alone[i].enter(alone[i].standing(Pose{pose[0], pose[1], pose[2]}));
+    }
+    for (int step = 0; step < 300; ++step) {
+      std::vector<std::int64_t> motions;
+      for (std::size_t i = 0; i < kCount; ++i) motions.push_back(random.index(5));
+      batch.step(motions.data());
+      for (std::size_t i = 0; i < kCount; ++i) {
+        CAPTURE(step);
+        CAPTURE(i);
+        if (batch.outcomes().begun[i] != 0) {
+          const double* const pose = &batch.rows().pose[3 * i];
+          alone[i].enter(alone[i].standing(Pose{pose[0], pose[1], pose[2]}));
+          steps[i] = 0;
+        } else {
+          const Environment::Transition made = alone[i].after(static_cast<int>(motions[i]));
+          alone[i].enter(made.next);
+          REQUIRE(batch.outcomes().smf[i] == made.outcome.smf);
+          REQUIRE(batch.outcomes().collided[i] == made.outcome.collided);
+          REQUIRE(batch.outcomes().terminated[i] == made.outcome.arrived);
+          REQUIRE(batch.outcomes().truncated[i] == (++steps[i] == 50 && !made.outcome.arrived));
+        }
+        const Observation& here = alone[i].look();
+        const Batch::Rows& rows = batch.rows();
+        REQUIRE(row(rows.pose, i, 3) ==
+                std::vector<double>{here.pose.x, here.pose.y, here.pose.heading});
+        REQUIRE(rows.clearance[i] == here.clearance);
+        REQUIRE(rows.situation[i] == here.situation);
+        REQUIRE(row(rows.echoes, i, 5) == alone[i].echoes());
+        for (int motion = 0; motion < 5; ++motion) {
+          REQUIRE(rows.allowed[5 * i + static_cast<std::size_t>(motion)] == here.allowed(motion));
+        }
+        const double standing = world.standing().clearance({here.pose.x, here.pose.y}, true);
+        near_movers += here.clearance < standing;
+      }
+    }
+  }
+  CHECK(near_movers > 100);
 }
 
 TEST_CASE("each row at wheel speeds is an environment alone at the same ones, to the bit") {
