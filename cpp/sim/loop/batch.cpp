@@ -72,7 +72,10 @@ void Batch::reset(const Reset& asked) {
     }
   };
   if (asked.poses != nullptr) {
-    each([&](std::size_t i) { environments_[i].robot().require_place(asked.poses[i], "pose"); });
+    each([&](std::size_t i) {
+      const double time = asked.seeds != nullptr ? 0.0 : environments_[i].time();
+      environments_[i].robot().require_free(asked.poses[i], time);
+    });
   }
   each([&](std::size_t i) {
     if (asked.seeds != nullptr) {

@@ -310,6 +310,26 @@ TEST_CASE("a reset puts robots where they are asked to be, or nothing is reset")
   CHECK(batch.rows().pose == std::vector<double>{0.3, 0.3, 90.0, 0.3, 1.5, 45.0});
 }
 
+TEST_CASE("where a mover is no robot is put, and nothing is reset") {
+  WorldDef def = near_def();
+  MoverPath path;
+  path.points = {{1.7, 0.3}, {1.7, 1.7}};
+  path.speed = 0.1;
+  def.movers = {Mover{Circle{{}, 0.15}, path}};
+  Batch batch(World(def), 2, near_config());
+  for (int step = 0; step < 20; ++step) batch.step(all(2, kLeft).data());  // 10 s
+  const std::vector<double> before = batch.rows().pose;
+  const std::vector<Pose> poses{{0.3, 0.3, 90.0}, {1.7, 1.3, 0.0}};
+  const std::vector<std::uint64_t> seeds{1, 2};
+  Batch::Reset asked;
+  asked.poses = poses.data();
+  CHECK_THROWS_AS(batch.reset(asked), InvalidValue);
+  CHECK(batch.rows().pose == before);
+  asked.seeds = seeds.data();  // anew: at 0 s
+  batch.reset(asked);
+  CHECK(row(batch.rows().pose, 1, 3) == std::vector<double>{1.7, 1.3, 0.0});
+}
+
 TEST_CASE("a start is drawn by the environment's seed, and episodes go on drawing") {
   BatchConfig episodes = with(Autoreset::kNextStep, 1);
   episodes.random_starts = true;
