@@ -19,6 +19,13 @@ def path_of(path_or_name: str | os.PathLike[str]) -> str:
     text = path_text(path_or_name)
     if text in worlds() and not os.path.isfile(text):
         return str(_FOLDER / f"{text}.json")
+    if text.endswith((".yaml", ".yml")):
+        raise FileError(
+            text,
+            "",
+            "a YAML",
+            "a world in JSON: World.from_ros_map, or devlearn world import, makes one of a map",
+        )
     if os.path.exists(text):
         return text
     raise FileError(text, "", "no such file", f"a world file, or one of {', '.join(worlds())}")

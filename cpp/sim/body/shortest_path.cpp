@@ -461,7 +461,7 @@ StartPlaces::StartPlaces(const Robot& robot, double goal_radius)
 
 // Where the body fits in a cell's middle it does so round it, so that a few draws suffice, unless
 // movers are nearly everywhere.
-Pose StartPlaces::draw(Random& random, double time) const noexcept {
+Pose StartPlaces::draw(Random& random, double time) const {
   constexpr int kMostDraws = 10000;
   for (int i = 0; i < kMostDraws; ++i) {
     const Point corner = corners_[random.index(static_cast<std::uint32_t>(corners_.size()))];

@@ -42,6 +42,7 @@ def test_a_world_that_the_robot_has_no_room_in_is_drawn_none_the_less(tmp_path, 
 def test_pictures_of_other_kinds_and_worlds_that_are_none_are_refused(tmp_path, capsys):
     assert "ends in .png" in refusal(capsys, "world", "show", "empty", "--output", "pic.bmp")
     assert "no such file" in refusal(capsys, "world", "show", "nowhere")
+    assert "devlearn world import" in refusal(capsys, "world", "check", "map.yaml")
 
 
 # --- check ---------------------------------------------------------------------------------------

@@ -67,7 +67,7 @@ class StartPlaces {
   /// A pose drawn evenly over these places, but for the target's surroundings of goal_radius, and
   /// over all headings. The body fits there and touches nothing, movers at that time [s] included;
   /// where they leave no such place, it is the world's start.
-  Pose draw(Random& random, double time = 0.0) const noexcept;
+  Pose draw(Random& random, double time = 0.0) const;
 
  private:
   World world_;
