@@ -11,7 +11,7 @@ from sphinx.util import logging
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ROOT / "build" / "docs-sources"
-sys.path.insert(0, str(ROOT / "docs"))
+sys.path[:0] = [str(ROOT / "docs"), str(ROOT / "docs/extensions")]
 from member_comments import STUB, attributes  # noqa: E402
 
 project = "devlearn"
@@ -23,9 +23,15 @@ version = release = re.search(
 root_doc = "docs/index"
 include_patterns = ["*.md", "docs/**", "examples/*.md", "bench/*.md"]
 exclude_patterns = [".*", "build", "out"]
-extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = [
+    "myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathml", "cpp_source",
+]  # fmt: skip
+myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
+html_math_renderer = "mathml"
 html_theme = "furo"
+html_static_path = ["static"]
+html_css_files = ["devlearn.css"]
 html_title = f"devlearn {release}"
 html_copy_source = False
 html_show_sphinx = False

@@ -1,6 +1,7 @@
 """The guides' programs run as they stand, and references leave nothing out."""
 
 import json
+import math
 import re
 import shutil
 import sqlite3
@@ -122,6 +123,51 @@ def test_every_example_is_in_both_languages_in_the_list_and_in_the_reference():
     assert stems == {path.stem for path in examples.glob("*.py")}
     assert stems == set(re.findall(r"^\| `(\d\d_\w+)`", listed, re.MULTILINE))
     assert set(re.findall(r"/examples/(\d\d_\w+)\.\w+$", reference, re.MULTILINE)) == stems
+
+
+METHOD = (ROOT / "docs/method.md").read_text(encoding="utf-8")
+
+
+def run_python_of(guide):
+    """The names that a guide's programs leave behind, run one after the other."""
+    names = {}
+    for code in re.findall(r"```python\n(.*?)```", guide, re.DOTALL):
+        exec(code, names)
+    return names
+
+
+def test_the_method_has_every_equation_beside_code():
+    sections = re.split(r"^### Eq. ", METHOD, flags=re.MULTILINE)[1:]
+    told = []
+    for section in sections:
+        first, last = re.match(r"(\d+)(?: (?:and|to) (\d+))?:", section).groups()
+        told += range(int(first), int(last or first) + 1)
+        assert "$$" in section and "```{cpp-source} cpp/" in section
+    assert told == list(range(1, 18))
+
+
+def test_the_python_of_the_method_gives_what_its_equations_say():
+    names = run_python_of(METHOD)
+    turn = math.radians(60)
+    assert names["pose"] == pytest.approx(
+        (1 + 0.05 * math.cos(turn), 1 + 0.05 * math.sin(turn), 60)
+    )
+    assert (names["right"] - names["left"]) / 0.1 * 0.5 == pytest.approx(turn)
+    assert names["near"] - names["far"] == pytest.approx(0.3 * (2**2 - 1**2))
+    assert names["extended"].orientation == [1 / 2, 1 / 2]
+    assert (names["extended"].effective, names["extended"].ineffective) == ([2, 3], [0])
+    d = 1 - math.exp(-0.05 * 4)
+    o = [(0.5 + 0.5 * d) / (1 + 0.5 * d), 0.5 / (1 + 0.5 * d)]
+    assert names["oriented"].orientation == pytest.approx(o)
+    assert (names["abandoned"].effective, names["abandoned"].ineffective) == ([2], [0, 3])
+
+
+def test_who_cites_finds_the_version_and_the_papers_doi_the_same_everywhere():
+    citing = (ROOT / "docs/citing.md").read_text(encoding="utf-8")
+    cff = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"{{{devlearn.__version__}}}" in citing
+    (doi,) = re.findall(r"doi: (\S+)", cff)
+    assert f"{{{doi}}}" in citing and f"doi.org/{doi}" in (ROOT / "docs/index.md").read_text()
 
 
 ADAPTIVE = (ROOT / "docs/adaptive.md").read_text(encoding="utf-8")
