@@ -1,6 +1,8 @@
 """Draws the pictures in this folder: .venv/bin/python docs/images/draw.py"""
 
+import contextlib
 import io
+import runpy
 import tempfile
 from pathlib import Path
 
@@ -14,20 +16,35 @@ from devlearn.plots.style import BLACK
 from PIL import Image
 
 HERE = Path(__file__).resolve().parent
+GALLERY = HERE.parent / "gallery"
 
 
 def save(figure, name, dpi):
-    """As a PNG of 256 colours, a third as large, without the version of matplotlib."""
+    """A figure as a small PNG."""
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=dpi)
     plt.close(figure)
+    save_small(drawn, HERE / name)
+
+
+def save_small(drawn, path):
+    """As a PNG of 256 colours, a third as large, without the version of matplotlib."""
     image = (
         Image.open(drawn)
         .convert("RGB")
         .quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
     )
-    image.save(HERE / name, optimize=True)
-    print(f"{name}: {(HERE / name).stat().st_size / 1000:.0f} kB")
+    image.save(path, optimize=True)
+    print(f"{path.name}: {path.stat().st_size / 1000:.0f} kB")
+
+
+def draw_gallery():
+    """What each program of the gallery draws, for docs/gallery.md."""
+    for program in sorted(GALLERY.glob("*.py")):
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            runpy.run_path(str(program))
+            plt.close("all")
+            save_small(f"{program.stem}.png", program.with_suffix(".png"))
 
 
 def draw_worlds():
@@ -157,3 +174,4 @@ if __name__ == "__main__":
         draw_kinds()
         draw_map()
         draw_readme()
+    draw_gallery()

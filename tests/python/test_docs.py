@@ -3,15 +3,18 @@
 import json
 import math
 import re
+import runpy
 import shutil
 import sqlite3
 import subprocess
 from pathlib import Path
 
 import devlearn
+import numpy as np
 import pytest
 from devlearn.experiments import statistics
 from devlearn.experiments.measures import MEASURES
+from PIL import Image
 
 ROOT = Path(__file__).parents[2]
 GUIDE = (ROOT / "docs" / "embedding.md").read_text(encoding="utf-8")
@@ -130,7 +133,7 @@ METHOD = (ROOT / "docs/method.md").read_text(encoding="utf-8")
 
 def run_python_of(guide):
     """The names that a guide's programs leave behind, run one after the other."""
-    names = {}
+    names = {"__name__": "__main__"}
     for code in re.findall(r"```python\n(.*?)```", guide, re.DOTALL):
         exec(code, names)
     return names
@@ -168,6 +171,51 @@ def test_who_cites_finds_the_version_and_the_papers_doi_the_same_everywhere():
     assert f"{{{devlearn.__version__}}}" in citing
     (doi,) = re.findall(r"doi: (\S+)", cff)
     assert f"{{{doi}}}" in citing and f"doi.org/{doi}" in (ROOT / "docs/index.md").read_text()
+
+
+def test_each_recipe_runs_and_does_what_it_is_for(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = run_python_of((ROOT / "docs/howto.md").read_text(encoding="utf-8"))
+    assert sorted(names["table"]["label"]) == ["adaptive"] * 3 + ["paper"] * 3
+    assert len(names["steps"]) == 1000 and (tmp_path / "steps.csv").exists()
+    assert len(names["found"].rounds) == 10 and names["found"].rounds["arrived"].any()
+    own = names["record_of_own"]
+    assert math.hypot(own.x[1] - own.x[0], own.y[1] - own.y[0]) == pytest.approx(0.2 * 0.5)
+    assert [names["again"].best(error) for error in (1, 2, 3)] == [0, 0, 0]
+    assert names["room"].target == (4.0, 2.0)
+    assert names["records"][0] != names["records"][1]
+    assert names["resumed"].robot.world == names["trial"].robot.world
+
+
+def test_what_helps_against_failures_runs_and_helps(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = run_python_of((ROOT / "docs/troubleshooting.md").read_text(encoding="utf-8"))
+    assert names["exhausted"] > names["exploring"] > 0
+    assert names["abandoned"] > 0
+    careless = devlearn.Trial(devlearn.World.load("paper"), seed=1).free_learning(2000)
+    assert 0 < names["safe"].collided.sum() < careless.collided.sum() / 3
+
+
+GALLERY = sorted((ROOT / "docs/gallery").glob("*.py"))
+
+
+def test_the_gallery_shows_every_picture_and_its_program():
+    page = (ROOT / "docs/gallery.md").read_text(encoding="utf-8")
+    named = [program.stem for program in GALLERY]
+    assert sorted(re.findall(r"\]\(gallery/(\w+)\.png\)", page)) == named
+    assert sorted(re.findall(r"^```{literalinclude} gallery/(\w+)\.py$", page, re.M)) == named
+
+
+@pytest.mark.parametrize("program", GALLERY, ids=lambda program: program.stem)
+def test_a_program_of_the_gallery_draws_the_picture_that_is_shown(program, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path(str(program))
+    pictures = (f"{program.stem}.png", program.with_suffix(".png"))
+    drawn, shown = (np.asarray(Image.open(each).convert("L"), dtype=float) for each in pictures)
+    assert drawn.shape == shown.shape
+    assert (
+        np.abs(drawn - shown).mean() < 2.0
+    )  # of 255: those shown have 256 colours, and perhaps other letters
 
 
 ADAPTIVE = (ROOT / "docs/adaptive.md").read_text(encoding="utf-8")
