@@ -18,6 +18,32 @@ void pickle_by_every_protocol(py::module_& m) {
   }
 }
 
+// Jupyter and its like ask objects how they show themselves; Python draws that.
+void show_in_notebooks(py::module_& m) {
+  const struct {
+    const char *type, *method, *function;
+  } shown[] = {
+      {"World", "_repr_svg_", "world_svg"},
+      {"Robot", "_repr_svg_", "robot_svg"},
+      {"RobotDef", "_repr_svg_", "robot_def_svg"},
+      {"Trial", "_repr_html_", "trial_html"},
+      {"Learner", "_repr_html_", "learner_html"},
+      {"AdaptiveLearner", "_repr_html_", "adaptive_html"},
+      {"Explanation", "_repr_html_", "explanation_html"},
+      {"ChoiceTrace", "_repr_html_", "trace_html"},
+      {"AdaptiveExplanation", "_repr_html_", "adaptive_explanation_html"},
+  };
+  for (const auto& [name, method, function] : shown) {
+    const py::object type = m.attr(name);
+    type.attr(method) = py::cpp_function(
+        [function = function](const py::object& self) {
+          const auto display = py::module_::import("devlearn.viewer.display");
+          return py::str(display.attr(function)(self));
+        },
+        py::name(method), py::is_method(type), "For notebooks.");
+  }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
@@ -45,5 +71,6 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_trial_snapshot(m);
   devlearn::python::bind_batch(m);
   pickle_by_every_protocol(m);
+  show_in_notebooks(m);
   devlearn::python::explain_wrong_calls(m);
 }

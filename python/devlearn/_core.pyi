@@ -521,6 +521,10 @@ class Explanation:
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     def __str__(self) -> str: ...
+    def _repr_html_(self) -> str:
+        """
+        For notebooks.
+        """
     @property
     def allowed(self) -> list[bool]:
         """
@@ -588,6 +592,10 @@ class ChoiceTrace:
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     def __str__(self) -> str: ...
+    def _repr_html_(self) -> str:
+        """
+        For notebooks.
+        """
     @property
     def choice(self) -> devlearn._types.Choice:
         """
@@ -649,6 +657,10 @@ class Learner:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def _repr_html_(self) -> str:
+        """
+        For notebooks.
+        """
     def best(self, situation: typing.SupportsIndex) -> int | None:
         """
         The effective motion of highest orientation, the first among equals; None where none is effective. Draws and changes nothing.
@@ -1020,6 +1032,10 @@ class AdaptiveExplanation:
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
     def __str__(self) -> str: ...
+    def _repr_html_(self) -> str:
+        """
+        For notebooks.
+        """
     @property
     def allowed(self) -> list[bool]:
         """
@@ -1111,6 +1127,10 @@ class AdaptiveLearner:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def _repr_html_(self) -> str:
+        """
+        For notebooks.
+        """
     def begin_round(self) -> None:
         """
         A round begins, where its first step is made; an open decision is dropped.
@@ -1524,6 +1544,10 @@ class World:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _repr_svg_(self) -> str:
+        """
+        For notebooks.
+        """
     @typing.overload
     def clearance(
         self,
@@ -1702,6 +1726,10 @@ class RobotDef:
     ) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _repr_svg_(self) -> str:
+        """
+        For notebooks.
+        """
     def replace(self, **kwargs: typing.Any) -> RobotDef:
         """
         A copy with some fields changed.
@@ -1793,6 +1821,10 @@ class Robot:
     def __init__(self, world: World, robot: RobotDef | None = None) -> None: ...
     def __reduce__(self) -> tuple[typing.Any, ...]: ...
     def __repr__(self) -> str: ...
+    def _repr_svg_(self) -> str:
+        """
+        For notebooks.
+        """
     def allowed(
         self,
         pose: collections.abc.Sequence[float],
@@ -3478,6 +3510,10 @@ class Trial:
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: typing.Any) -> None: ...
+    def _repr_html_(self) -> str:
+        """
+        For notebooks.
+        """
     def begin_round(self) -> None:
         """
         Puts the robot at the start pose for a new round.

@@ -228,6 +228,11 @@ class Record:  # noqa: D101 - made of the columns
             f"{arrived} arrived, world {world!r}>"
         )
 
+    def _repr_svg_(self) -> str:
+        from .viewer.display import record_svg
+
+        return record_svg(self)
+
     @property
     def world(self) -> _core.World:
         """The world it happened in. Raises InvalidValue where its provenance does not say."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from .. import _markup as markup
 from .._core import Trial, World
 from ..errors import InvalidValue
 from ..experiments.contenders import trial_of
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 FLOOR, BOUND = "RandomAgent", "ShortestPathAgent"
 """They do not learn: what any agent should surpass, and what none can."""
+_MOST_SHOWN = 40  # worlds, and agents, in a notebook
 _VARIANT = ["agent", "settings", "trial", "schedule"]
 
 
@@ -81,6 +83,27 @@ class Compared:
         self.left_out = len(frame) - len(self.frame)
         """Runs that have no counterpart."""
         self._by_measure: dict[str, Mapping[str, pandas.DataFrame]] = {}
+
+    def _repr_html_(self) -> str:
+        """For notebooks: of each agent, world by world, the median over the seeds of last_ratio."""
+        worlds = self.worlds[:_MOST_SHOWN]
+        table = self._tables("last_ratio")
+        rows = [
+            [one.name, *table[one.name][worlds].median().tolist()]
+            for one in self.contenders[:_MOST_SHOWN]
+        ]
+        left = [
+            f"{many - _MOST_SHOWN} more {what}"
+            for many, what in ((len(self.worlds), "worlds"), (len(self.contenders), "agents"))
+            if many > _MOST_SHOWN
+        ]
+        told = f"Medians over {markup.counted(len(self.seeds), 'seed')} of last_ratio: "
+        told += MEASURES["last_ratio"].doc
+        return (
+            markup.paragraph(told)
+            + markup.table(["agent", *worlds], rows)
+            + (markup.paragraph(f"and {', '.join(left)}") if left else "")
+        )
 
     @property
     def learners(self) -> list[Contender]:

@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _core
+from .. import _markup as markup
 from .._calls import path_text, shown
 from .._files import code_version, locked
 from ..errors import FileError, InvalidValue, MissingExtra, WrongType
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 APPLICATION = 0x64766C6E  # "dvln"
 SCHEMA = 1
 WANTED = "results of a sweep by devlearn"
+_MOST_SHOWN = 40  # rows in a notebook
 
 # Columns of `runs` beside what says which run it is and the measures; those that differ from
 # machine to machine begin with run_.
@@ -146,6 +148,28 @@ class Results:
 
     def __repr__(self) -> str:
         return f"<devlearn.Results: {len(self)} runs in {str(self.path)!r}>"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: of each agent in each world its runs, and medians of a few measures."""
+        groups: dict[tuple[str, str], list[tuple[Any, ...]]] = {}
+        measures = ("first_arrival", "last_ratio", "failed_share")
+        for world, label, *rest in self._all(
+            f"SELECT world, label, error IS NOT NULL, {', '.join(measures)} FROM results"
+        ):
+            groups.setdefault((world, label), []).append(tuple(rest))
+        rows = []
+        for (world, label), runs in [*groups.items()][:_MOST_SHOWN]:
+            failed, *values = zip(*runs)
+            known = ([value for value in of if value is not None] for of in values)
+            medians = (float(np.median(of)) if of else None for of in known)
+            rows.append([world, label, len(runs), sum(failed), *medians])
+        head = ("world", "agent", "runs", "failed by an error", *measures)
+        left = len(groups) - len(rows)
+        return (
+            markup.paragraph(f"{markup.counted(len(self), 'run')} in {self.path}; medians:")
+            + markup.table(head, rows)
+            + (markup.paragraph(f"and {left} more agents in worlds") if left else "")
+        )
 
     @property
     def meta(self) -> dict[str, str]:
