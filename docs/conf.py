@@ -35,6 +35,7 @@ html_css_files = ["devlearn.css"]
 html_title = f"devlearn {release}"
 html_copy_source = False
 html_show_sphinx = False
+html_show_search_summary = False  # which a page opened as a file may not read
 
 # --- C++: the comments of the headers, as Doxygen reads them -----------------------------------
 breathe_projects = {"devlearn": str(SOURCES / "xml")}

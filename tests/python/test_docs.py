@@ -149,6 +149,20 @@ def test_the_method_has_every_equation_beside_code():
     assert told == list(range(1, 18))
 
 
+def test_every_function_that_the_method_quotes_is_there_once():
+    lines_of = runpy.run_path(str(ROOT / "docs/cpp_function.py"))["lines_of"]
+    for path, name in re.findall(r"^```{cpp-source} (\S+) (\S+)$", METHOD, re.MULTILINE):
+        text = (ROOT / path).read_text(encoding="utf-8")
+        first, last = lines_of(text, name)
+        quoted = text.split("\n")[first - 1 : last]
+        assert any(f"{name}(" in line for line in quoted)
+        assert quoted[-1].endswith("}")
+        assert "\n".join(quoted).count("{") == "\n".join(quoted).count("}")
+    for wrong in ("MotorMemory::lost", "normal"):
+        with pytest.raises(ValueError, match=f"0 definitions of {wrong}"):
+            lines_of((ROOT / "cpp/core/src/motor_memory.cpp").read_text(encoding="utf-8"), wrong)
+
+
 def test_the_python_of_the_method_gives_what_its_equations_say():
     names = run_python_of(METHOD)
     turn = math.radians(60)
