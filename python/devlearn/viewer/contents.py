@@ -9,7 +9,6 @@ import numpy as np
 
 from .._core import Circle, Event, Kind, MoverWalk, Rectangle, TrialConfig, World
 from ..analysis import sef_field
-from ..errors import InvalidValue
 from ..record import Record
 from .learners import pack_learner
 from .pack import Packer
@@ -47,6 +46,8 @@ def of_record(record: Record, most_steps: int) -> str:
         header |= {"shows": "steps", "total": len(record)}
         header |= pack_steps(packer, record, shown)
         header |= pack_learner(packer, record, shown, notes)
+    header["allRounds"] = len(record.rounds)
+    header["allArrived"] = int(record.rounds["arrived"].sum())
     rounds = record.rounds[entries]
     packer.whole("roundNumber", rounds["round"])
     packer.whole("roundSteps", rounds["steps"])
@@ -79,11 +80,14 @@ def _place(
                 walks = mover.get("walk", {}).get("leg_time") == leg_time
                 if walks and isinstance(shape, (Circle, Rectangle)):
                     mover["walk"]["waypoints"].append(list(shape.center))
-    try:
-        field = sef_field(source, points=_FIELD_POINTS)
-    except InvalidValue:
+    if isinstance(source, Record) and "evaluation" in source.provenance:
         notes.append("SEF is the trial's own, which the record does not hold: it is no ground.")
     else:
+        still = world
+        if world.movers:
+            standing = {name: told for name, told in shown.items() if name != "movers"}
+            still = World.from_json(json.dumps(standing))
+        field = sef_field(still, config.evaluation, config.walls_count, _FIELD_POINTS)
         packer.parts("field", field.sef, field.floor, max(field.floor, float(field.sef.max())))
         shown["field"] = {"columns": len(field.x), "rows": len(field.y)}
         if world.movers:

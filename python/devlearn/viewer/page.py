@@ -18,7 +18,8 @@ MOST_STEPS = 300_000  # on a page
 _PARTS = Path(__file__).with_name("parts")
 # In the order in which they build on each other.
 _SCRIPTS = (
-    "unpack.js", "learner.js", "run.js", "geometry.js", "ground.js", "trail.js", "stage.js",
+    "unpack.js", "learner.js", "run.js", "geometry.js", "ground.js", "trail.js",
+    "preferences.js", "stage.js",
     "charts.js", "panel.js", "player.js",
 )  # fmt: skip
 

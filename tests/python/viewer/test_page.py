@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from conftest import refused
 from devlearn import Event, Kind, Record, Trial, TrialConfig, World
+from devlearn.analysis import preference_field
 from devlearn.viewer import page, write_page
 from pages import TITLE, header_of, program
 
@@ -199,6 +200,24 @@ def test_an_adaptive_learner_is_told_at_moments(paper, opened):
     assert header_of(page(record))["notes"] == []
 
 
+@pytest.mark.parametrize(
+    "config", [TrialConfig(), TrialConfig.adaptive()], ids=["paper", "adaptive"]
+)
+def test_the_arrows_are_those_of_the_field_of_preferences(paper, opened, config):
+    trial = Trial(paper, config, seed=5)
+    record = trial.free_learning(1500)
+    shown = opened(record)
+    shown.go_to(100)
+    for step in range(1450, 1501, 10):  # the last ones by what changed alone
+        shown.go_to(step)
+    arrows = shown.page.evaluate("devlearn.preferences()")
+    field = preference_field(trial)
+    told = {(round(a["x"], 6), round(a["y"], 6)): (a["u"], a["v"], a["times"]) for a in arrows}
+    assert len(told) == len(field.x) > 50
+    for x, y, u, v, times in zip(*field):
+        assert told[round(x, 6), round(y, 6)] == pytest.approx((u, v, times), abs=1e-6)
+
+
 def test_worlds_are_shown_as_they_are_and_movers_move(opened):
     shapes = [
         devlearn.Polygon(
@@ -282,6 +301,7 @@ def test_of_many_rounds_some_are_shown_whole(paper):
     record = Record.concatenate([trial.free_learning(1)] + [trial.path_learning(200, step_limit=3)])
     header = header_of(page(record, most_steps=250))
     assert header["thinned"] == {"steps": 1, "rounds": 3}
+    assert header["allRounds"] == 201
 
 
 def test_markup_and_control_characters_in_names_do_nothing(opened):

@@ -193,6 +193,11 @@ class Learner {
     return why;
   }
 
+  /** Whether a situation was experienced. */
+  met(situation) {
+    return this.state.met[situation] > 0;
+  }
+
   /** The effective motion of highest orientation, its orientation and count; null for none. */
   best(situation) {
     const { sizes, orientation, times, motions } = this.state;

@@ -54,7 +54,7 @@ class Panel {
 
   // --- now
 
-  now(frame, pose) {
+  now(frame, pose, sef) {
     const { run } = this;
     const rows = [];
     const say = (name, ...what) =>
@@ -77,6 +77,7 @@ class Panel {
     const time = run.timeAt(frame);
     const when = Number.isNaN(time) ? "" : ` at ${thousands(time)} s`;
     say("Pose", `${plain(x, 2)} m, ${plain(y, 2)} m, ${heading.toFixed(0)}\u00b0${when}`);
+    if (sef) say("SEF there", sef);
     this.facts.replaceChildren(...rows);
   }
 

@@ -38,7 +38,7 @@ class Player {
     this.layers = {
       ground: this.ground.kinds.at(-1),
       paths: true,
-      arrows: Boolean(run.replay || run.adaptive) && Boolean(run.grid),
+      arrows: this.stage.preferences.known,
       sonars: true,
     };
     this.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
@@ -108,15 +108,16 @@ class Player {
   #subtitle() {
     const { run } = this;
     if (run.shows === "world") return "A world. Point anywhere to see its SEF, and what sonars hear there.";
-    if (!run.hasSteps) return `${thousands(run.rounds)} rounds`;
-    const arrived = run.roundArrived.reduce((sum, did) => sum + did, 0);
-    const rounds = `${thousands(run.rounds)} ${run.rounds === 1 ? "round" : "rounds"}`;
+    const rounds =
+      `${thousands(run.allRounds)} ${run.allRounds === 1 ? "round" : "rounds"}, ` +
+      `${thousands(run.allArrived)} of them arrived`;
+    if (!run.hasSteps) return rounds;
     const thinned = run.thinned;
     const left = [];
     if (thinned?.rounds > 1) left.push(`one round in ${thousands(thinned.rounds)}`);
     if (thinned?.steps > 1) left.push(`one step in ${thousands(thinned.steps)}`);
     const shown = left.length ? `. Thinned to be shown: ${left.join(", ")}` : "";
-    return `${thousands(run.total)} steps; ${rounds}, ${thousands(arrived)} of them arrived${shown}`;
+    return `${thousands(run.total)} steps; ${rounds}${shown}`;
   }
 
   #fillLegend() {
@@ -160,7 +161,7 @@ class Player {
         className: "buttons",
         children: [
           ...(this.ground.kinds.length > 1 ? [grounds] : []),
-          ...toggle("arrows", "arrows", run.grid && (run.replay || run.adaptive)),
+          ...toggle("arrows", "arrows", this.stage.preferences.known),
           ...toggle("sonars", "sonars", true),
           ...toggle("paths", "earlier paths", run.rounds > 1),
         ],
@@ -360,16 +361,19 @@ class Player {
 
   #showReasons() {
     const { run } = this;
-    const hint = byId("hint");
-    const told = this.pointer && run.field;
-    hint.textContent = told
-      ? `SEF at the pointer ${plain(this.ground.sefAt(this.pointer.x, this.pointer.y), 2)}`
-      : "";
-    byId("reasons").hidden = !(run.hasSteps && run.steps > 0) && !told;
-    if (!run.hasSteps || run.steps === 0) return;
+    const sef = this.#sefThere();
+    byId("hint").textContent = sef && `SEF at the pointer ${sef}`;
+    byId("reasons").hidden = !run.steps;
+    if (!run.steps) return;
     const pointed = this.#pointed();
     this.panel.explain(pointed, this.frame);
     this.#showHeadings(pointed.id);
+  }
+
+  /** SEF at the pointer, as text; none where it is not pointed or SEF is not known. */
+  #sefThere() {
+    const { run, pointer } = this;
+    return pointer && run.field ? plain(this.ground.sefAt(pointer.x, pointer.y), 2) : "";
   }
 
   /** The headings of a situation's cell, to choose from; those met are seen best. */
@@ -452,7 +456,7 @@ class Player {
     this.charts.forEach((chart) => chart.draw(frame));
     this.#sayWhen();
     if (!told) return;
-    this.panel.now(frame, pose);
+    this.panel.now(frame, pose, run.hasSteps ? "" : this.#sefThere());
     this.#showReasons();
   }
 
@@ -540,6 +544,7 @@ async function start() {
     state: () => player.state(),
     situation: (id) => player.situation(id),
     echoes: () => Array.from(player.stage.echoes(player.frame)),
+    preferences: () => player.stage.preferences.at(player.frame),
     movers: (time) => player.place.movers.map((mover) => mover.placeAt(time)),
     play: () => player.play(true),
     stop: () => player.play(false),

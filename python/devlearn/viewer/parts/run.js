@@ -164,43 +164,6 @@ class Run {
     const bin = Math.floor((heading * grid.headings) / 360 + 0.5) % grid.headings;
     return (row * grid.columns + column) * grid.headings + ((bin + grid.headings) % grid.headings);
   }
-
-  // --- what is preferred
-
-  /** The preferred motion of a situation and how often it was learned, or null; as of now. */
-  #best(number) {
-    return this.replay ? this.replay.learner.best(number) : this.adaptive.best(number);
-  }
-
-  /** Of each cell experienced, as analysis.preference_field: the mean direction of the preferred
-   * motions, each weighted by how often it was learned. */
-  preferences(frame) {
-    if (!this.grid || !(this.replay || this.adaptive)) return [];
-    const made = this.stepsTo(frame);
-    (this.replay ?? this.adaptive).to(made);
-    this.cells ??= this.ids.map((_, number) => this.cellOf(number));
-    const found = new Map();
-    this.cells.forEach((cell, number) => {
-      if (!cell || !this.#met(number)) return;
-      const sums = found.get(cell.cell) ?? { x: cell.x, y: cell.y, u: 0, v: 0, times: 0 };
-      found.set(cell.cell, sums);
-      const best = this.#best(number);
-      if (!best) return;
-      const way = ((cell.heading + this.robot.steering_angles[best.motion]) * Math.PI) / 180;
-      sums.u += best.times * Math.cos(way);
-      sums.v += best.times * Math.sin(way);
-      sums.times += best.times;
-    });
-    return [...found.values()].map((of) => ({
-      ...of,
-      u: of.u / Math.max(1, of.times),
-      v: of.v / Math.max(1, of.times),
-    }));
-  }
-
-  #met(number) {
-    return this.replay ? this.replay.learner.state.met[number] > 0 : this.adaptive.met(number);
-  }
 }
 
 /** An adaptive learner at some moments: expected losses and numbers of outcomes. */

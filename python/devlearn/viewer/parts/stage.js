@@ -8,7 +8,8 @@ const JUST_NOW = 150; // steps whose path is seen best
 class Stage {
   constructor(canvas, run, place, ground) {
     Object.assign(this, { canvas, run, place, ground });
-    this.context = canvas.getContext("2d");
+    this.context = canvas.getContext("2d", { alpha: false });
+    this.preferences = new Preferences(run);
     this.past = new Trail({
       run, draw: drawRoundPaths, count: run.rounds, alpha: 0.16, least: 1, bytes: PAST_BYTES,
     });
@@ -55,11 +56,8 @@ class Stage {
   /** What is shown: a frame, the robot's pose, which layers, and the cell pointed at. */
   draw({ frame, pose, layers, pointed }) {
     const { context, run, view, place } = this;
-    const { width, height } = this.canvas;
     const time = run.timeAt(frame);
-    context.fillStyle = this.colours.floor;
-    context.fillRect(0, 0, width, height);
-    this.#drawGround(layers.ground, frame);
+    context.drawImage(this.#floor(layers.ground, frame), 0, 0);
     if (run.hasSteps) {
       const round = run.roundOf(frame);
       const first = run.firstFrame[round];
@@ -72,7 +70,7 @@ class Stage {
     }
     context.drawImage(this.obstacles, 0, 0);
     place.moversAt(time).forEach((outline) => this.#fill(context, outline));
-    if (layers.arrows) this.#drawArrows(run.preferences(frame));
+    if (layers.arrows) this.#drawArrows(this.preferences.at(frame));
     if (pointed) this.#drawCell(pointed, this.colours.ink, []);
     this.#drawTarget();
     if (layers.sonars) this.#drawSonars(pose, frame);
@@ -84,15 +82,24 @@ class Stage {
     }
   }
 
-  #drawGround(kind, frame) {
-    const { view, place, context } = this;
-    const image = this.ground.picture(kind, this.colours.ramp, this.run.stepAt(frame));
-    if (!image) return;
-    const { grid } = this.run;
-    const over = kind === "SEF" ? place : { left: grid.origin[0], low: grid.origin[1], ...grid };
-    context.imageSmoothingEnabled = kind === "SEF";
-    const [x, y] = [view.px(over.left), view.py(over.low + over.height)];
-    context.drawImage(image, x, y, over.width * view.scale, over.height * view.scale);
+  // The ground in the arena's size, drawn once as long as it stays the same.
+  #floor(kind, frame) {
+    const { view, place, run, colours } = this;
+    const image = this.ground.picture(kind, colours.ramp, run.stepAt(frame));
+    if (this.under?.image === image && this.under.view === view) return this.under.canvas;
+    const canvas = canvasOf(view.width, view.height);
+    const context = canvas.getContext("2d", { alpha: false });
+    context.fillStyle = colours.floor;
+    context.fillRect(0, 0, view.width, view.height);
+    if (image) {
+      const { grid } = run;
+      const over = kind === "SEF" ? place : { left: grid.origin[0], low: grid.origin[1], ...grid };
+      const [x, y] = [view.px(over.left), view.py(over.low + over.height)];
+      context.imageSmoothingEnabled = kind === "SEF";
+      context.drawImage(image, x, y, over.width * view.scale, over.height * view.scale);
+    }
+    this.under = { image, view, canvas };
+    return canvas;
   }
 
   #drawStill(context) {
