@@ -167,6 +167,14 @@ def draw_readme():
     save(figure, "readme.png", 150)
 
 
+def draw_film():
+    """Rounds of a robot that learns to find its way, for docs/films.md."""
+    trial = devlearn.Trial(devlearn.World.load("paper"), seed=3)
+    film = devlearn.animate(trial.path_learning(100), rounds="1,3,10,last", seconds=8, width=400)
+    film.save(HERE / "film.gif")
+    print(f"film.gif: {(HERE / 'film.gif').stat().st_size / 1000:.0f} kB")
+
+
 if __name__ == "__main__":
     matplotlib.use("Agg")
     with matplotlib.rc_context({**plots.STYLE, "axes.titlesize": 9}):
@@ -174,4 +182,5 @@ if __name__ == "__main__":
         draw_kinds()
         draw_map()
         draw_readme()
-    draw_gallery()
+        draw_gallery()
+    draw_film()

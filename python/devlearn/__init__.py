@@ -13,6 +13,7 @@ headings and angles in degrees, counter-clockwise positive.
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from . import errors as errors
@@ -69,6 +70,7 @@ if TYPE_CHECKING:
     from .experiments.store import Results
     from .experiments.sweep import sweep
     from .record import Record
+    from .viewer.film import animate
 
 __all__ = [
     "AdaptiveConfig",
@@ -119,6 +121,7 @@ __all__ = [
     "World",
     "WrongType",
     "__version__",
+    "animate",
     "direction",
     "exponential",
     "may_reach_target",
@@ -128,14 +131,19 @@ __all__ = [
     "wrapped_heading",
 ]
 
+# Where they are, of which some need more than numpy.
+_FURTHER = {
+    "Results": ".experiments.store",
+    "animate": ".viewer.film",
+    "sweep": ".experiments.sweep",
+}
+
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
         # Each name when it is first asked for (PEP 562): --help should not wait for them.
-        if name in ("Results", "sweep"):  # which need more than numpy
-            from .experiments import store, sweep
-
-            globals()[name] = getattr(store if name == "Results" else sweep, name)
+        if name in _FURTHER:
+            globals()[name] = getattr(import_module(_FURTHER[name], __name__), name)
             return globals()[name]
         if name in __all__:
             from . import _core, _types, _worlds, record

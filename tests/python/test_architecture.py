@@ -56,6 +56,7 @@ def test_the_help_of_the_command_line_loads_nothing_that_it_does_not_need():
         "devlearn.cli.reproduce",
         "devlearn.cli.compare",
         "devlearn.cli.console",
+        "devlearn.cli.film",
         "devlearn.cli.run",
         "devlearn.cli.sweep",
         "devlearn.cli.view",
@@ -154,7 +155,7 @@ ROOMS = {
     "maps": set(),
     "cli": {"analysis", "plots", "experiments", "paper", "comparison", "maps", "viewer"},
     "envs": {"plots"},
-    "viewer": {"analysis"},
+    "viewer": {"analysis", "plots"},
 }
 EXTRAS = {
     "matplotlib": "plots",
@@ -163,6 +164,7 @@ EXTRAS = {
     "scipy": "experiments",
     "distributed": "experiments",
     "gymnasium": "envs",
+    "imageio_ffmpeg": "viewer",
     "PIL": "maps",
     "shapely": "maps",
     "skimage": "maps",

@@ -9,7 +9,7 @@ import argparse
 import signal
 from collections.abc import Sequence
 
-from . import compare, console, reproduce, run, sweep, view, world
+from . import compare, console, film, reproduce, run, sweep, view, world
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -51,7 +51,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and leave")
     verbs = parser.add_subparsers(required=True, metavar="VERB")
-    for verb in (reproduce, run, view, sweep, compare, world):
+    for verb in (reproduce, run, view, film, sweep, compare, world):
         verb.add_to(verbs)
     return parser
 

@@ -34,6 +34,12 @@ def warn(text: object) -> None:
     _write(sys.stderr, text)
 
 
+def passing(text: str) -> None:
+    """How far things are, on a terminal: the next takes the place of this, "" leaves nothing."""
+    if sys.stderr.isatty():
+        _put(sys.stderr, "\r\33[K" + printable(text))
+
+
 def printable(text: str) -> str:
     """The text with all that could steer a terminal written out."""
     return "".join(
@@ -42,8 +48,12 @@ def printable(text: str) -> str:
 
 
 def _write(stream: TextIO, text: object) -> None:
+    _put(stream, printable(str(text)) + "\n")
+
+
+def _put(stream: TextIO, text: str) -> None:
     try:
-        stream.write(printable(str(text)) + "\n")
+        stream.write(text)
         stream.flush()
     except (OSError, ValueError):
         # The reader has left, as `head` does, or the disk is full. What is still in the stream

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # Told apart by width and marker, not by colour alone; drawn in this order.
-_KINDS: dict[Kind, tuple[str, dict[str, Any]]] = {
+KINDS: dict[Kind, tuple[str, dict[str, Any]]] = {
     Kind.UNSTATED: ("no reason given", {"color": GREY, "linewidth": 0.8}),
     Kind.HELD: ("held", {"color": SKY, "linewidth": 1.8}),
     Kind.HABIT: ("habit", {"color": BLUE, "linewidth": 1.1}),
@@ -101,19 +102,16 @@ def plot_trajectory(
     )
     if world:
         draw_arena(ax, place)
-        draw_obstacles(ax, place, _time_at_start(record, entry))
+        draw_obstacles(ax, place, time_at_start(record, entry))
     handles: list[Any] = []
     if by == "kind":
-        for order, (kind, (name, how)) in enumerate(_KINDS.items()):
+        for order, (kind, (name, how)) in enumerate(KINDS.items()):
             chosen = kinds == int(kind)
             count = int(np.count_nonzero(chosen))
             if count == 0:
                 continue
-            lines = np.full((count, 3, 2), np.nan)
-            lines[:, 0] = path[:-1][chosen, :2]
-            lines[:, 1] = path[1:][chosen, :2]
             (line,) = ax.plot(
-                *lines.reshape(-1, 2).T,
+                *apart(path[:-1][chosen, :2], path[1:][chosen, :2]),
                 markevery=3,
                 markeredgewidth=0.7 if how.get("marker") == "x" else 0.0,
                 solid_capstyle="round",
@@ -152,7 +150,16 @@ def plot_trajectory(
     return ax
 
 
-def _time_at_start(record: Record, entry: int) -> float:
+def apart(
+    begins: npt.NDArray[np.float64], ends: npt.NDArray[np.float64]
+) -> npt.NDArray[np.float64]:
+    """Steps from (n, 2) to (n, 2) as one line's x and y, (2, 3 n): nothing joins them."""
+    lines = np.full((len(begins), 3, 2), np.nan)
+    lines[:, 0], lines[:, 1] = begins, ends
+    return lines.reshape(-1, 2).T
+
+
+def time_at_start(record: Record, entry: int) -> float:
     """When the entry began [s]; 0 in a world where nothing moves, whatever the file says."""
     return float(record.times(entry)[0]) if record.world.movers else 0.0
 

@@ -1,4 +1,4 @@
-"""To look at what was run: pages that play a record."""
+"""To look at what was run: pages that play a record, and films."""
 
 from .page import page, write_page
 
