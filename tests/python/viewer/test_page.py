@@ -172,6 +172,33 @@ def test_a_cell_pointed_at_tells_its_lists_and_why_it_chose(record, opened, pape
     assert f"Situation {record.situation[step - 1]}" in shown.locator("#why").inner_text()
 
 
+def test_the_arena_is_seen_from_nearer_and_the_robot_stays_in_view(record, opened):
+    shown = opened(record)
+    shown.go_to(1)
+    whole = shown.picture()
+    shown.keyboard.press("z")
+    shown.keyboard.press("z")
+    assert shown.state()["zoom"] == 4
+    near = shown.picture()
+    box = shown.locator("#stage").bounding_box()
+    shown.mouse.move(box["x"] + 200, box["y"] + 300)
+    shown.mouse.down()
+    shown.mouse.move(box["x"] + 100, box["y"] + 350, steps=3)
+    shown.mouse.up()
+    shown.mouse.move(1, 1)
+    assert len({whole, near, shown.picture()}) == 3
+    x, y = shown.page.evaluate("devlearn.goTo(400), devlearn.pixel(devlearn.state())")
+    assert 0 < x < box["width"]
+    assert 0 < y < box["height"]
+    for _ in range(3):
+        shown.locator("#farther").click()
+    assert shown.state()["zoom"] == 1
+    shown.go_to(1)
+    shown.mouse.move(1, 1)
+    shown.page.evaluate("document.activeElement.blur()")
+    assert shown.picture() == whole
+
+
 def test_the_page_fits_a_phone_and_is_played_there_by_touch(record, opened):
     phone = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "color_scheme": "dark"}
     shown = opened(record, phone)

@@ -15,6 +15,7 @@ const KEYS = [
   ["+ −", "faster or slower"],
   ["G", "another ground"],
   ["A S P", "arrows, sonars, earlier paths"],
+  ["Z, shift Z", "nearer or farther; drag to move"],
   ["[ ]", "another heading there"],
   ["escape", "let go of the cell pointed at"],
   ["D", "dark or light"],
@@ -196,12 +197,56 @@ class Player {
     stage.addEventListener("pointerleave", () => {
       if (!this.pinned) this.point(null);
     });
+    this.#listenToZoom(stage, at);
     stage.addEventListener("click", (event) => {
+      if (this.dragged) return;
       const point = at(event);
       const again = this.pinned && this.#same(this.pointer, point);
       this.pinned = !again;
       this.point(again ? null : point);
     });
+  }
+
+  #listenToZoom(stage, at) {
+    byId("nearer").addEventListener("click", () => this.zoomBy(2));
+    byId("farther").addEventListener("click", () => this.zoomBy(0.5));
+    stage.addEventListener(
+      "wheel",
+      (event) => {
+        if (!event.ctrlKey) return; // as touch pads pinch
+        event.preventDefault();
+        this.zoomBy(2 ** (-event.deltaY / 100), at(event));
+      },
+      { passive: false },
+    );
+    let from = null;
+    stage.addEventListener("pointerdown", (event) => {
+      this.dragged = false;
+      if (this.stage.zoom > 1) from = event;
+    });
+    // Drawn anew where it is let go: until then the picture itself is moved.
+    const moved = (event) => [event.clientX - from.clientX, event.clientY - from.clientY];
+    stage.addEventListener("pointermove", (event) => {
+      if (!from) return;
+      const [dx, dy] = moved(event);
+      this.dragged ||= Math.hypot(dx, dy) > 4;
+      if (this.dragged) stage.style.transform = `translate(${dx}px, ${dy}px)`;
+    });
+    for (const end of ["pointerup", "pointercancel", "pointerleave"]) {
+      stage.addEventListener(end, (event) => {
+        if (from && this.dragged) this.stage.pan(...moved(event));
+        if (from) stage.style.transform = "";
+        from = null;
+        this.render();
+      });
+    }
+  }
+
+  /** Nearer by a factor; around a point, else the robot. */
+  zoomBy(factor, around = this.#pose()) {
+    this.stage.zoomBy(factor, around);
+    byId("stage").style.touchAction = this.stage.zoom > 1 ? "none" : "";
+    this.render();
   }
 
   #same(a, b) {
@@ -234,6 +279,7 @@ class Player {
         this.pinned = false;
         this.point(null);
       },
+      z: () => this.zoomBy(event.shiftKey ? 0.5 : 2),
       d: () => byId("theme").click(),
       "?": () => byId("help").click(),
     };
@@ -436,6 +482,7 @@ class Player {
 
   #go(frame, now = Infinity) {
     this.frame = frame;
+    this.stage.keepInView(this.run.poseAt(frame));
     byId("scrub").value = frame;
     const quick = now - (this.told ?? -Infinity) < PANEL_EVERY;
     if (!quick) this.told = Number.isFinite(now) ? now : performance.now();
@@ -492,6 +539,7 @@ class Player {
       playing: this.playing,
       speed: this.speed,
       theme: this.theme,
+      zoom: this.stage.zoom,
       layers: { ...this.layers },
       notes: run.notes,
     };
@@ -544,6 +592,7 @@ async function start() {
     state: () => player.state(),
     situation: (id) => player.situation(id),
     echoes: () => Array.from(player.stage.echoes(player.frame)),
+    pixel: ({ x, y }) => player.stage.pixelAt(x, y),
     preferences: () => player.stage.preferences.at(player.frame),
     movers: (time) => player.place.movers.map((mover) => mover.placeAt(time)),
     play: () => player.play(true),

@@ -3,12 +3,16 @@
 const MARGIN = 8; // around the arena [CSS pixels]
 const PAST_BYTES = 96e6;
 const PRESENT_BYTES = 32e6;
+const NEAREST = 10; // radii of the robot across what is seen, at least
+const EDGE = 0.12; // of what is seen, where the robot is about to leave it
 const JUST_NOW = 150; // steps whose path is seen best
 
 class Stage {
   constructor(canvas, run, place, ground) {
     Object.assign(this, { canvas, run, place, ground });
     this.context = canvas.getContext("2d", { alpha: false });
+    this.zoom = 1;
+    this.centre = { x: place.left + place.width / 2, y: place.low + place.height / 2 };
     this.preferences = new Preferences(run);
     this.past = new Trail({
       run, draw: drawRoundPaths, count: run.rounds, alpha: 0.16, least: 1, bytes: PAST_BYTES,
@@ -20,18 +24,65 @@ class Stage {
 
   /** Anew, at a width [CSS pixels] and in these colours. */
   resize(width, colours) {
-    const { place } = this;
+    Object.assign(this, { width, colours });
+    this.#layOut();
+  }
+
+  /** Nearer by a factor, where a point of the arena stays where it is seen. */
+  zoomBy(factor, { x, y }) {
+    const { place, run, centre } = this;
+    const nearest = Math.min(place.width, place.height) / (NEAREST * run.robot.radius);
+    const zoom = Math.max(1, Math.min(this.zoom * factor, nearest));
+    const rest = this.zoom / zoom;
+    if (rest === 1) return;
+    this.zoom = zoom;
+    this.#centreAt(x + (centre.x - x) * rest, y + (centre.y - y) * rest);
+  }
+
+  /** What is seen moves by so much [CSS pixels]. */
+  pan(dx, dy) {
+    const { view, centre } = this;
+    this.#centreAt(
+      centre.x - (dx * view.ratio) / view.scale,
+      centre.y + (dy * view.ratio) / view.scale,
+    );
+  }
+
+  /** Moves what is seen where a pose is about to leave it. */
+  keepInView({ x, y }) {
+    if (this.zoom === 1 || !this.view) return;
+    const { view } = this;
+    const [right, down] = [view.px(x) / view.width, view.py(y) / view.height];
+    if (Math.min(right, down) < EDGE || Math.max(right, down) > 1 - EDGE) this.#centreAt(x, y);
+  }
+
+  // Never beyond the arena.
+  #centreAt(x, y) {
+    const { place, zoom } = this;
+    const within = (value, low, length) => {
+      const half = length / zoom / 2;
+      return Math.max(low + half, Math.min(low + length - half, value));
+    };
+    this.centre = {
+      x: within(x, place.left, place.width),
+      y: within(y, place.low, place.height),
+    };
+    this.#layOut();
+  }
+
+  #layOut() {
+    const { place, width, colours, zoom, centre } = this;
     const ratio = window.devicePixelRatio || 1;
-    const scale = ((width - 2 * MARGIN) / place.width) * ratio;
-    const [left, bottom] = [MARGIN * ratio, MARGIN * ratio + place.height * scale];
-    this.colours = colours;
+    const whole = ((width - 2 * MARGIN) / place.width) * ratio;
+    const scale = whole * zoom;
+    const [across, high] = [width * ratio, place.height * whole + 2 * MARGIN * ratio];
     this.view = {
       ratio,
       scale,
-      width: Math.max(1, Math.round(width * ratio)),
-      height: Math.max(1, Math.round(place.height * scale + 2 * MARGIN * ratio)),
-      px: (x) => left + (x - place.left) * scale,
-      py: (y) => bottom - (y - place.low) * scale,
+      width: Math.max(1, Math.round(across)),
+      height: Math.max(1, Math.round(high)),
+      px: (x) => across / 2 + (x - centre.x) * scale,
+      py: (y) => high / 2 - (y - centre.y) * scale,
     };
     [this.canvas.width, this.canvas.height] = [this.view.width, this.view.height];
     this.canvas.style.height = `${this.view.height / ratio}px`;
@@ -41,6 +92,12 @@ class Stage {
     }
     this.obstacles = canvasOf(this.view.width, this.view.height);
     this.#drawStill(this.obstacles.getContext("2d"));
+  }
+
+  /** The point of the canvas [CSS pixels] over a point of the arena. */
+  pixelAt(x, y) {
+    const { view } = this;
+    return [view.px(x) / view.ratio, view.py(y) / view.ratio];
   }
 
   /** The point of the arena under a point of the canvas [CSS pixels]. */
@@ -177,7 +234,7 @@ class Stage {
       }
       context.globalAlpha = 0.25 + (0.65 * level) / (LEVELS - 1);
       context.strokeStyle = context.fillStyle = colours.arrow;
-      context.lineWidth = Math.max(1, 0.16 * longest);
+      context.lineWidth = Math.max(1, Math.min(4 * view.ratio, 0.16 * longest));
       context.stroke(shafts);
       context.fill(heads);
     }
