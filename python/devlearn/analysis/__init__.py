@@ -9,7 +9,7 @@ from .episodes import (
     find_window,
 )
 from .fields import PreferenceField, SefField, preference_field, sef_field
-from .replay import Replay, first_learner, parts
+from .replay import Replay, first_learner, learner_chose, parts
 from .rooms import Gap, Rooms
 from .ways import WayField
 
@@ -27,6 +27,7 @@ __all__ = [
     "find_episodes",
     "find_window",
     "first_learner",
+    "learner_chose",
     "parts",
     "preference_field",
     "sef_field",

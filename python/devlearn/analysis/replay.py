@@ -10,6 +10,9 @@ from ..errors import FileError, InvalidValue
 from ..record import Record
 from .fields import grid_of
 
+# As records name them, and as snapshots do.
+_LEARNERS = ("devlearn._core.Learner", "devlearn._core.AdaptiveLearner", "learner", "adaptive")
+
 
 def first_learner(record: Record) -> Learner | AdaptiveLearner | None:
     """The learner as it was before a record's first step; None where the record cannot tell.
@@ -25,17 +28,19 @@ def first_learner(record: Record) -> Learner | AdaptiveLearner | None:
             except FileError as error:
                 refusal = error
         raise refusal
-    agent = record.provenance.get("agent", "").rpartition(".")[2]
-    if agent not in ("Learner", "AdaptiveLearner") or "config" not in record.provenance:
+    if not learner_chose(record) or "config" not in record.provenance:
         return None
     if len(record) and record.explored_count[0] > (record.kind[0] == int(Kind.EXPLORE)):
         return None
     config, seed = record.config.learner, record.provenance.get("seed", 0)
     if isinstance(config, AdaptiveConfig):
-        new: Learner | AdaptiveLearner = AdaptiveLearner(config, seed)
-    else:
-        new = Learner(config, seed)
-    return new if type(new).__name__ == agent else None
+        return AdaptiveLearner(config, seed)
+    return Learner(config, seed)
+
+
+def learner_chose(record: Record) -> bool:
+    """Whether a record's agent was a Learner or an AdaptiveLearner."""
+    return record.provenance.get("agent") in _LEARNERS
 
 
 class Replay:
@@ -63,8 +68,8 @@ class Replay:
     def to(self, steps: int) -> Learner | AdaptiveLearner:
         """Goes on until so many steps are made; the learner then.
 
-        Raises InvalidValue for fewer than were made, or more than there are; and where the adaptive
-        learner chooses otherwise than the record says, so that it is not the one that was recorded.
+        Raises InvalidValue for fewer than were made, or more than there are; and where the learner
+        chooses or learns otherwise than the record says, so that it is not the one recorded.
         """
         if not self.steps <= steps <= len(self._record):
             raise InvalidValue("steps", steps, f"in [{self.steps}, {len(self._record)}]")
@@ -77,12 +82,24 @@ class Replay:
         return self.learner
 
     def _learn(self, learner: Learner, end: int) -> None:
-        record, ahead = self._record, slice(self.steps, end)
-        met = (getattr(record, name)[ahead] for name in ("situation", "motion", "smf_used"))
-        for situation, motion, smf in zip(*(column.tolist() for column in met)):
-            learner.choose(situation)
-            learner.learn(smf, motion)
-        self.steps = end
+        record = self._record
+        told = ("situation", "motion", "smf_used", "event", "reduced", "effective_count")
+        columns = (getattr(record, name)[self.steps : end].tolist() for name in told)
+        every_allowed = record.config.robot.safety_margin is None
+        for situation, motion, smf, *came in zip(*columns):
+            chosen = learner.choose(situation).motion
+            if every_allowed and chosen != motion:
+                raise _another(f"record.motion[{self.steps}]", motion, chosen, "chooses")
+            learned = learner.learn(smf, motion)
+            for name, value in zip(told[3:], came):
+                found = int(getattr(learned, name))
+                if found != value:
+                    raise _another(f"record.{name}[{self.steps}]", value, found, "learns")
+            self.steps += 1
+
+
+def _another(quantity: str, value: int, found: int, does: str) -> InvalidValue:
+    return InvalidValue(quantity, value, f"{found}, as the learner replayed {does}")
 
 
 def parts(record: Record, *entries: slice) -> Iterator[Record]:
@@ -126,11 +143,10 @@ class _Rounds:
         if entry is not None:
             self._begin(learner, entry)
         choice = learner.choose(int(record.situation[step]), self._estimate)
-        if (choice.motion, int(choice.kind)) != (record.motion[step], record.kind[step]):
-            raise InvalidValue(
-                f"record.motion[{step}]", int(record.motion[step]),
-                f"{choice.motion}, as the learner that it carries chooses",
-            )  # fmt: skip
+        for name, found in (("motion", choice.motion), ("kind", int(choice.kind))):
+            value = int(getattr(record, name)[step])
+            if value != found:
+                raise _another(f"record.{name}[{step}]", value, found, "chooses")
         arrived = bool(record.arrived[step])
         self._estimate = 0.0 if arrived else float(record.goal_distance[step]) / self._step
         learner.learn(
@@ -139,7 +155,7 @@ class _Rounds:
             self._estimate,
             interrupted=bool(record.collided[step]),
         )
-        if self._ends.get(step) is not None and self._arrives(step):
+        if step in self._ends and self._arrives(step):
             learner.end_round(True)
 
     def _begin(self, learner: AdaptiveLearner, entry: int) -> None:

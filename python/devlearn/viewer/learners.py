@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._core import AdaptiveLearner, Event, Learner
-from ..analysis import Replay, first_learner
+from ..analysis import Replay, first_learner, learner_chose
 from ..errors import InvalidValue
 from ..record import Record
 from .pack import Packer
@@ -45,9 +45,8 @@ def pack_learner(packer: Packer, record: Record, shown: Shown, notes: list[str])
         order, told = _adaptive(packer, record, ids, notes)
     else:
         order, told = ids, {}
-    number = np.empty(len(ids), np.int64)
-    by_id = np.argsort(order, kind="stable")
-    number[:] = by_id[np.searchsorted(order[by_id], ids)]
+    by_id = np.argsort(order)
+    number = by_id[np.searchsorted(order, ids, sorter=by_id)]
     packer.whole("situation", number[situation])
     if true is not None:
         packer.whole("trueSituation", number[true])
@@ -62,13 +61,13 @@ def pack_learner(packer: Packer, record: Record, shown: Shown, notes: list[str])
 
 
 def _why_not(record: Record) -> str:
-    agent = record.provenance.get("agent", "").rpartition(".")[2]
-    if agent in ("Learner", "AdaptiveLearner"):
+    if learner_chose(record):
         return (
             "The record does not carry what its learner knew at its first step: lists and arrows "
             "are not shown. Phases with learner=True keep it."
         )
-    return f"The agent, {agent or 'not named'}, keeps no lists: there are none to be shown."
+    agent = record.provenance.get("agent", "which the record does not name")
+    return f"The agent, {agent}, keeps no lists: there are none to be shown."
 
 
 def _paper(packer: Packer, record: Record, learner: Learner) -> dict[str, Any]:

@@ -37,9 +37,10 @@ class Packer:
     def parts(
         self, name: str, values: npt.ArrayLike, low: float, high: float, stride: int = 1
     ) -> None:
-        """Numbers in [low, high], to within 1/131070 of that; others become its ends."""
+        """Numbers in [low, high], to within 1/131070 of that; others, too, become some of these."""
         wide = max(high - low, np.finfo(float).tiny)
-        parts = np.rint(65535 * np.clip((np.asarray(values) - low) / wide, 0, 1))
+        share = np.nan_to_num((np.asarray(values) - low) / wide)
+        parts = np.rint(65535 * np.clip(share, 0, 1))
         self._changes(name, parts.ravel().astype("<u2"), stride, {"low": low, "high": high})
 
     def _changes(self, name: str, column: Numbers, stride: int, told: Mapping[str, float]) -> None:

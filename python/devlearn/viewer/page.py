@@ -18,9 +18,8 @@ MOST_STEPS = 300_000  # on a page
 _PARTS = Path(__file__).with_name("parts")
 # In the order in which they build on each other.
 _SCRIPTS = (
-    "unpack.js", "learner.js", "run.js", "geometry.js", "ground.js", "trail.js",
-    "preferences.js", "stage.js",
-    "charts.js", "panel.js", "player.js",
+    "unpack.js", "learner.js", "run.js", "geometry.js", "ground.js", "trail.js", "preferences.js",
+    "stage.js", "charts.js", "panel.js", "controls.js", "player.js",
 )  # fmt: skip
 
 
@@ -48,7 +47,7 @@ def page(
     else:
         raise WrongType("what", shown(what), "a Record or a World")
     parts = {
-        "title": html.escape("".join(letter for letter in name if letter.isprintable())),
+        "title": html.escape("".join(filter(str.isprintable, name)) or "World"),
         "style": _part("style.css"),
         "script": "\n".join(map(_part, _SCRIPTS)),
         "data": data,

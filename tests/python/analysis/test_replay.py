@@ -72,6 +72,10 @@ def test_another_learner_than_the_one_recorded_is_noticed(paper):
     replay = Replay(record)
     refused(lambda: replay.to(200))
     refused(lambda: replay.to(201), "steps")
+    agent = Learner(devlearn.LearnerConfig(eta=0.9, sigma=0.9, c1=5.0), seed=4)
+    record = Trial(paper, agent=agent, seed=4).free_learning(4000)
+    replay = Replay(record)
+    refused(lambda: replay.to(4000))
     record.learner = b"none"
     with pytest.raises(devlearn.FileError):
         Replay(record)

@@ -1,5 +1,7 @@
 // Beside the arena: what happens now, and what a situation holds and why it chose as it did.
 
+const byId = (id) => document.getElementById(id);
+
 /** An element with its text and its children. */
 function made(tag, { text, children = [], ...rest } = {}) {
   const element = Object.assign(document.createElement(tag), rest);
@@ -35,8 +37,8 @@ const EVENT_MEANINGS = {
 class Panel {
   constructor(run) {
     this.run = run;
-    this.facts = document.getElementById("facts");
-    this.why = document.getElementById("why");
+    this.facts = byId("facts");
+    this.why = byId("why");
   }
 
   /** A motion by its steering angle, with an arrow as the robot would see it. */

@@ -7,21 +7,6 @@ const RAMPS = {
   light: [[176, 190, 212], [214, 224, 232], [240, 243, 236], [255, 247, 214]],
   dark: [[16, 20, 30], [24, 36, 54], [38, 60, 78], [74, 92, 92]],
 };
-const KEYS = [
-  ["space", "play or stop"],
-  ["← →", "a step back or on; with shift 100"],
-  ["page up, page down", "the round before or after"],
-  ["home, end", "the first or last frame"],
-  ["+ −", "faster or slower"],
-  ["G", "another ground"],
-  ["A S P", "arrows, sonars, earlier paths"],
-  ["Z, shift Z", "nearer or farther; drag to move"],
-  ["[ ]", "another heading there"],
-  ["escape", "let go of the cell pointed at"],
-  ["D", "dark or light"],
-];
-
-const byId = (id) => document.getElementById(id);
 
 class Player {
   constructor(run) {
@@ -45,7 +30,7 @@ class Player {
     this.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
     this.charts = this.#makeCharts();
     this.#fillPage();
-    this.#listen();
+    listen(this);
     this.setTheme(this.theme);
     new ResizeObserver(() => this.#resize()).observe(byId("arena"));
   }
@@ -170,77 +155,7 @@ class Player {
     );
   }
 
-  // --- what the user does
-
-  #listen() {
-    const click = (id, action) => byId(id).addEventListener("click", action);
-    click("play", () => this.play(!this.playing));
-    click("back", () => this.stepBy(-1));
-    click("forward", () => this.stepBy(1));
-    click("previous", () => this.roundBy(-1));
-    click("next", () => this.roundBy(1));
-    click("theme", () => this.setTheme(this.theme === "dark" ? "light" : "dark"));
-    click("help", () => byId("keys").showModal());
-    click("keys", () => byId("keys").close());
-    byId("scrub").addEventListener("input", () => this.show(Number(byId("scrub").value)));
-    byId("speed").addEventListener("change", () => (this.speed = Number(byId("speed").value)));
-    addEventListener("keydown", (event) => this.#key(event));
-
-    const stage = byId("stage");
-    const at = (event) => {
-      const box = stage.getBoundingClientRect();
-      return this.stage.pointAt(event.clientX - box.left, event.clientY - box.top);
-    };
-    stage.addEventListener("pointermove", (event) => {
-      if (!this.pinned && event.pointerType !== "touch") this.point(at(event));
-    });
-    stage.addEventListener("pointerleave", () => {
-      if (!this.pinned) this.point(null);
-    });
-    this.#listenToZoom(stage, at);
-    stage.addEventListener("click", (event) => {
-      if (this.dragged) return;
-      const point = at(event);
-      const again = this.pinned && this.#same(this.pointer, point);
-      this.pinned = !again;
-      this.point(again ? null : point);
-    });
-  }
-
-  #listenToZoom(stage, at) {
-    byId("nearer").addEventListener("click", () => this.zoomBy(2));
-    byId("farther").addEventListener("click", () => this.zoomBy(0.5));
-    stage.addEventListener(
-      "wheel",
-      (event) => {
-        if (!event.ctrlKey) return; // as touch pads pinch
-        event.preventDefault();
-        this.zoomBy(2 ** (-event.deltaY / 100), at(event));
-      },
-      { passive: false },
-    );
-    let from = null;
-    stage.addEventListener("pointerdown", (event) => {
-      this.dragged = false;
-      if (this.stage.zoom > 1) from = event;
-    });
-    // Drawn anew where it is let go: until then the picture itself is moved.
-    const moved = (event) => [event.clientX - from.clientX, event.clientY - from.clientY];
-    stage.addEventListener("pointermove", (event) => {
-      if (!from) return;
-      const [dx, dy] = moved(event);
-      this.dragged ||= Math.hypot(dx, dy) > 4;
-      if (this.dragged) stage.style.transform = `translate(${dx}px, ${dy}px)`;
-    });
-    for (const end of ["pointerup", "pointercancel", "pointerleave"]) {
-      stage.addEventListener(end, (event) => {
-        if (from && this.dragged) this.stage.pan(...moved(event));
-        if (from) stage.style.transform = "";
-        from = null;
-        this.render();
-      });
-    }
-  }
+  // --- how it is shown
 
   /** Nearer by a factor; around a point, else the robot. */
   zoomBy(factor, around = this.#pose()) {
@@ -249,48 +164,7 @@ class Player {
     this.render();
   }
 
-  #same(a, b) {
-    const { run } = this;
-    if (!run.grid) return Math.hypot(a.x - b.x, a.y - b.y) < run.robot.radius;
-    return run.idAt({ ...a, heading: 0 }) === run.idAt({ ...b, heading: 0 });
-  }
-
-  #key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
-    const many = event.shiftKey ? 100 : 1;
-    const actions = {
-      " ": () => this.play(!this.playing),
-      ArrowLeft: () => this.stepBy(-many),
-      ArrowRight: () => this.stepBy(many),
-      PageUp: () => this.roundBy(-1),
-      PageDown: () => this.roundBy(1),
-      Home: () => this.show(0),
-      End: () => this.show(this.run.frames - 1),
-      "+": () => this.setSpeed(1),
-      "=": () => this.setSpeed(1),
-      "-": () => this.setSpeed(-1),
-      g: () => byId("ground") && this.setLayers({ ground: this.#nextGround() }),
-      a: () => byId("layer-arrows")?.click(),
-      s: () => byId("layer-sonars")?.click(),
-      p: () => byId("layer-paths")?.click(),
-      "[": () => this.turn(1),
-      "]": () => this.turn(-1),
-      Escape: () => {
-        this.pinned = false;
-        this.point(null);
-      },
-      z: () => this.zoomBy(event.shiftKey ? 0.5 : 2),
-      d: () => byId("theme").click(),
-      "?": () => byId("help").click(),
-    };
-    const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (!action || byId("keys").open) return;
-    if (event.target.tagName === "BUTTON" && event.key === " ") event.target.blur();
-    event.preventDefault();
-    action();
-  }
-
-  #nextGround() {
+  nextGround() {
     const { kinds } = this.ground;
     return kinds[(kinds.indexOf(this.layers.ground) + 1) % kinds.length];
   }
@@ -352,6 +226,24 @@ class Player {
   }
 
   // --- the cell pointed at
+
+  /** A click or a tap: it is held, or let go where it was held. */
+  hold(point) {
+    const again = this.pinned && this.#same(this.pointer, point);
+    this.pinned = !again;
+    this.point(again ? null : point);
+  }
+
+  letGo() {
+    this.pinned = false;
+    this.point(null);
+  }
+
+  #same(a, b) {
+    const { run } = this;
+    if (!run.grid) return Math.hypot(a.x - b.x, a.y - b.y) < run.robot.radius;
+    return run.idAt({ ...a, heading: 0 }) === run.idAt({ ...b, heading: 0 });
+  }
 
   point(pointer) {
     this.pointer = pointer;
