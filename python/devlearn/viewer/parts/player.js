@@ -146,7 +146,7 @@ class Player {
       made("div", {
         className: "buttons",
         children: [
-          ...(this.ground.kinds.length > 1 ? [grounds] : []),
+          ...(this.ground.kinds.length > 1 ? [grounds, made("span", { id: "scale" })] : []),
           ...toggle("arrows", "arrows", this.stage.preferences.known),
           ...toggle("sonars", "sonars", true),
           ...toggle("paths", "earlier paths", run.rounds > 1),
@@ -195,8 +195,20 @@ class Player {
     for (const name of ["arrows", "sonars", "paths"]) {
       byId(`layer-${name}`)?.setAttribute("aria-pressed", this.layers[name]);
     }
-    if (byId("ground")) byId("ground").value = this.layers.ground;
+    if (byId("ground")) this.#showScale();
     this.render();
+  }
+
+  /** What the colours of the ground mean. */
+  #showScale() {
+    const kind = this.layers.ground;
+    byId("ground").value = kind;
+    byId("scale").hidden = kind === "none";
+    if (kind === "none") return;
+    const { low, high } = this.ground.range(kind);
+    const bar = made("span");
+    bar.style.background = `linear-gradient(to right, ${RAMPS[this.theme].map((c) => `rgb(${c})`)})`;
+    byId("scale").replaceChildren(plain(low, 0), bar, plain(high, 0));
   }
 
   setTheme(theme) {
