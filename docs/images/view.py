@@ -23,5 +23,6 @@ with tempfile.TemporaryDirectory() as folder, sync_playwright() as driver:
     page.wait_for_selector("html[data-ready]", state="attached")
     page.evaluate("devlearn.goTo(75_100)")
     picture = Image.open(io.BytesIO(page.screenshot()))
-    picture.quantize(128).save(Path(__file__).with_name("view.png"), optimize=True)
+    picture = picture.convert("RGB").quantize(256, kmeans=3)
+    picture.save(Path(__file__).with_name("view.png"), optimize=True)
     browser.close()
