@@ -90,7 +90,7 @@ class Scene:
         self._name = self._text(_MARGIN, head, 10, weight="bold")
         self._told = self._text(_WIDTH - _MARGIN, head, 9, ha="right")
         self._lay_out_counts(entries, (below - _COUNTS / 2) / height)
-        self._curve = self._lay_out_curve(axes(0.45, 0.2, wide - 0.5, _CURVE - 0.3)) if many else ()
+        self._curve = self._lay_out_curve(axes(0.6, 0.2, wide - 0.65, _CURVE - 0.3)) if many else ()
 
     def _lay_out_map(self, ax: Axes) -> None:
         self._map = ax
