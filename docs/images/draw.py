@@ -182,5 +182,5 @@ if __name__ == "__main__":
         draw_kinds()
         draw_map()
         draw_readme()
-        draw_gallery()
     draw_film()
+    draw_gallery()
