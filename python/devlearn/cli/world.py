@@ -194,8 +194,8 @@ def _import(options: argparse.Namespace) -> int:
     _require_output(options.output)
     made = import_ros_map(
         options.map,
-        start=_numbers("--start", options.start, 3),
-        target=_numbers("--target", options.target, 2),
+        start=_numbers("--start", options.start, "X,Y,HEADING"),
+        target=_numbers("--target", options.target, "X,Y"),
         unknown=options.unknown,
         tolerance=options.tolerance,
         seed=options.seed,
@@ -221,7 +221,7 @@ def _made(made: MapImport) -> Iterator[str]:
     yield from _told(made.world)
 
 
-def _numbers(option: str, text: str | None, count: int) -> list[float] | None:
+def _numbers(option: str, text: str | None, wanted: str) -> list[float] | None:
     from ..errors import InvalidValue
 
     if text is None:
@@ -230,8 +230,8 @@ def _numbers(option: str, text: str | None, count: int) -> list[float] | None:
         numbers = [float(number) for number in text.split(",")]
     except ValueError:
         numbers = []
-    if len(numbers) != count:
-        raise InvalidValue(option, repr(text), f"{count} numbers with commas between them")
+    if len(numbers) != wanted.count(",") + 1:
+        raise InvalidValue(option, repr(text), f"{wanted}, numbers with commas between them")
     return numbers
 
 
