@@ -24,10 +24,17 @@ root_doc = "docs/index"
 include_patterns = ["*.md", "docs/**", "examples/*.md", "bench/*.md"]
 exclude_patterns = [".*", "build", "out"]
 extensions = [
-    "myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathml", "cpp_source",
+    "myst_nb", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "mathml", "cpp_source",
 ]  # fmt: skip
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
+# Notebooks are run from top to bottom each time, by the package itself (scripts/docs), and an error
+# in one is an error of the documentation.
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120
+nb_kernel_rgx_aliases = {"python3": "devlearn"}
+nb_merge_streams = True
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_static_path = ["static"]
