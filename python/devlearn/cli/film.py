@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import Any
 
 from .console import passing, say, warn
@@ -25,7 +26,9 @@ def add_to(verbs: Any) -> None:
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("record", help="a record (.npz), or a trial's snapshot that holds one")
+    parser.add_argument(
+        "record", help="a record (.npz), a folder of devlearn run, or a trial's snapshot with one"
+    )
     parser.add_argument(
         "film", nargs="?", metavar="FILM", help="to write: .gif, .mp4 or .webp (default: film.gif)"
     )
@@ -51,15 +54,20 @@ def add_to(verbs: Any) -> None:
 
 
 def _main(options: argparse.Namespace) -> int:
-    from ..errors import InvalidValue
+    from .._core import World
+    from ..errors import FileError, InvalidValue
     from ..record import Record
     from ..viewer.film import animate, format_of
+    from .view import recorded
 
     if options.film is not None and options.output is not None:
         raise InvalidValue("--output", options.output, f"no second name beside {options.film}")
     name = options.output or options.film or "film.gif"
     format_of(name)  # refuses what cannot be written before anything is read
-    record = Record.load(options.record)
+    there = Path(options.record).exists()
+    record = recorded([options.record]) if there else Record.load(options.record)
+    if isinstance(record, World):
+        raise FileError(options.record, "", "a world", "a record: devlearn run makes one")
     film = animate(
         record,
         rounds=options.rounds,

@@ -173,7 +173,9 @@ def _told(made: Run, world: str, planned: Schedule) -> Iterator[str]:
 
     yield f"world {world}, seed {made.trial.seed}"
     for i, record in enumerate((made.first, made.second), 1):
-        arrival = measures.first_arrival(record) if len(record) else None
+        if len(record) == 0:
+            continue
+        arrival = measures.first_arrival(record)
         reached = "the target was never reached"
         if arrival is not None:
             reached = f"target reached at step {arrival}"

@@ -65,7 +65,7 @@ def _main(options: argparse.Namespace) -> int:
         raise InvalidValue("--output", repr(options.output), "a name that ends in .html")
     if not output.parent.is_dir():
         raise FileError(options.output, "", "no such folder", "a file in a folder that is there")
-    what = _found(options.what)
+    what = recorded(options.what)
     config = None if options.config is None else _core.load_config(options.config)
     if options.rounds is not None:
         if isinstance(what, _core.World):
@@ -76,8 +76,8 @@ def _main(options: argparse.Namespace) -> int:
     return 0
 
 
-def _found(names: list[str]) -> Record | World:
-    """Records of one trial as one, or a world."""
+def recorded(names: list[str]) -> Record | World:
+    """Records of one trial as one, folders of `devlearn run` among them; or a world."""
     from .._core import World
     from ..errors import FileError
     from ..record import Record
@@ -90,7 +90,9 @@ def _found(names: list[str]) -> Record | World:
         files += phases or [Path(name)]
     if len(files) == 1 and not _holds_record(files[0]):
         return World.load(names[0])
-    return Record.concatenate([Record.load(file) for file in files])
+    records = [Record.load(file) for file in files]
+    made = [record for record in records if record.rounds["steps"].any()]
+    return Record.concatenate(made or records)
 
 
 def _holds_record(path: Path) -> bool:

@@ -39,6 +39,17 @@ def test_a_folder_of_devlearn_run_is_one_page(run, tmp_path, capsys):
     assert told["total"] == 600 + len(paths)
 
 
+def test_phases_in_which_nothing_was_run_are_left_out(tmp_path, capsys):
+    folder, page = tmp_path / "run", tmp_path / "page.html"
+    asked = ["--steps", "0", "--rounds", "3", "--output", str(folder)]
+    assert main(["run", "paper", *asked]) == 0
+    assert "free learning" not in capsys.readouterr().out
+    assert main(["view", str(folder), "--output", str(page)]) == 0
+    told = header(page)
+    assert told["allRounds"] == 3
+    assert told["learner"]["known"] == 0
+
+
 def test_rounds_are_shown_alone_with_what_was_known_before_them(run, tmp_path):
     page = tmp_path / "page.html"
     for rounds, count in (("4:5", 2), ("5", 1), (":4", 2), ("6:", 1)):

@@ -349,6 +349,21 @@ def test_the_verb_writes_the_film_that_it_is_asked_for(
     assert (tmp_path / "film.gif").read_bytes() == film.to_bytes("gif")
 
 
+def test_the_verb_takes_a_folder_of_devlearn_run(tmp_path, capsys):
+    folder, film = tmp_path / "run", tmp_path / "film.gif"
+    asked = ["--steps", "20", "--rounds", "1", "--output", str(folder)]
+    assert cli.main(["run", "empty", *asked]) == 0
+    more = ["--rounds", "all", "--seconds", "1", "--width", str(SMALL)]
+    assert cli.main(["film", str(folder), str(film), *more]) == 0
+    assert "rounds 1, 2, 3 of 3" in capsys.readouterr().out
+    assert cli.main(["film", "paper", str(film), *more]) == 1
+    assert "no such file" in capsys.readouterr().err
+    world = tmp_path / "world.json"
+    devlearn.World.load("paper").save(world)
+    assert cli.main(["film", str(world), str(film), *more]) == 1
+    assert "a world" in capsys.readouterr().err
+
+
 def test_the_verb_refuses_two_names(file_of_paths, capsys):
     assert cli.main(["film", str(file_of_paths), "a.gif", "--output", "b.gif"]) == 1
     assert "no second name beside a.gif" in capsys.readouterr().err
