@@ -18,7 +18,7 @@ const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
 const KIND_MEANINGS = {
   explore: "a motion not tried here yet",
-  exploit: "the winner of orientation and curiosity",
+  exploit: "what is known as the best here",
   exhausted: "any motion: none left to try, none effective",
   unstated: "the agent gives no reason",
   habit: "as in the best round so far",
@@ -70,7 +70,7 @@ class Panel {
         say("Motion", this.motion(run.motion[step]), " ", this.chip(run.kinds[run.kind[step]]));
         const met = `SMF ${signed(run.smf[step], 3)}, SEF ${plain(run.sef[step], 2)}`;
         const touched = run.collided[step] ? ", touched something" : "";
-        say("Outcome", `${met}${touched}; ${EVENT_MEANINGS[run.events[run.event[step]]]}`);
+        say("Outcome", `${met}${touched}; ${this.#became(step)}`);
       }
       const [explored, effective] = run.countsAt(frame);
       say("Mappings", `${thousands(explored)} explored, ${thousands(effective)} effective`);
@@ -128,10 +128,17 @@ class Panel {
     const when = here ? "Chosen" : `Last chosen in round ${run.roundNumber[round]}`;
     children.push(`${when}: `, this.motion(run.motion[step]), " ", this.chip(kind), ". ");
     children.push(this.#because(step, number, kind));
-    const outcome = ` It met SMF ${signed(run.smf[step], 3)}: ${EVENT_MEANINGS[run.events[run.event[step]]]}`;
+    const outcome = ` It met SMF ${signed(run.smf[step], 3)}: ${this.#became(step)}`;
     const reduced = run.replay?.reduced[step] ?? 0;
     children.push(outcome + (reduced ? `; ${reduced} reduced.` : "."));
     return made("p", { children });
+  }
+
+  // What became of a motion. Eq. 9 is the paper's learner's.
+  #became(step) {
+    const event = this.run.events[this.run.event[step]];
+    if (event === "orientation" && !this.run.replay) return "what is known of it was corrected";
+    return EVENT_MEANINGS[event];
   }
 
   #because(step, number, kind) {
