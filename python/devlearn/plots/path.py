@@ -9,18 +9,13 @@ import numpy.typing as npt
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 
+from .._colours import BY_KIND
 from .._core import Kind
 from ..errors import InvalidValue
 from ..record import Record
 from .rounds import round_name
 from .style import (
-    BLACK,
-    BLUE,
-    GREY,
     INK,
-    ORANGE,
-    SKY,
-    VERMILLION,
     colorbar_beside,
     dark_cividis,
     in_rows,
@@ -42,23 +37,17 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # Told apart by width and marker, not by colour alone; drawn in this order.
+_LOOKS: dict[Kind, tuple[str, dict[str, Any]]] = {
+    Kind.UNSTATED: ("no reason given", {"linewidth": 0.8}),
+    Kind.HELD: ("held", {"linewidth": 1.8}),
+    Kind.HABIT: ("habit", {"linewidth": 1.1}),
+    Kind.DEVIATION: ("deviation", {"linewidth": 1.4, "marker": "^", "markersize": 2.6}),
+    Kind.EXPLORE: ("explore", {"linewidth": 1.4, "marker": "o", "markersize": 2.2}),
+    Kind.EXHAUSTED: ("exhausted", {"linewidth": 0.5, "marker": "x", "markersize": 2.6}),
+    Kind.EXPLOIT: ("exploit", {"linewidth": 0.8}),
+}
 KINDS: dict[Kind, tuple[str, dict[str, Any]]] = {
-    Kind.UNSTATED: ("no reason given", {"color": GREY, "linewidth": 0.8}),
-    Kind.HELD: ("held", {"color": SKY, "linewidth": 1.8}),
-    Kind.HABIT: ("habit", {"color": BLUE, "linewidth": 1.1}),
-    Kind.DEVIATION: (
-        "deviation",
-        {"color": VERMILLION, "linewidth": 1.4, "marker": "^", "markersize": 2.6},
-    ),
-    Kind.EXPLORE: (
-        "explore",
-        {"color": ORANGE, "linewidth": 1.4, "marker": "o", "markersize": 2.2},
-    ),
-    Kind.EXHAUSTED: (
-        "exhausted",
-        {"color": BLUE, "linewidth": 0.5, "marker": "x", "markersize": 2.6},
-    ),
-    Kind.EXPLOIT: ("exploit", {"color": BLACK, "linewidth": 0.8}),
+    kind: (_LOOKS[kind][0], {"color": color, **_LOOKS[kind][1]}) for kind, color in BY_KIND.items()
 }
 
 

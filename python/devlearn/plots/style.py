@@ -16,23 +16,21 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormat
 from matplotlib.transforms import ScaledTranslation
 
 from .._calls import shown
+from .._colours import BLACK as BLACK
+from .._colours import BLUE as BLUE
+from .._colours import GREEN as GREEN
+from .._colours import GREY as GREY
+from .._colours import INK as INK
+from .._colours import OBSTACLE as OBSTACLE
+from .._colours import ORANGE as ORANGE
+from .._colours import PURPLE as PURPLE
+from .._colours import SKY as SKY
+from .._colours import VERMILLION as VERMILLION
 from ..errors import WrongType
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
-
-# Okabe and Ito (2008): told apart by the colour-blind.
-BLACK = "#000000"
-ORANGE = "#E69F00"
-GREEN = "#009E73"
-BLUE = "#0072B2"
-VERMILLION = "#D55E00"
-PURPLE = "#CC79A7"
-SKY = "#56B4E9"
-GREY = "#7F7F7F"
-INK = "#222222"
-OBSTACLE = "#A9CBE6"  # the paper's blue, light enough to draw over
 
 COLUMN = 3.5  # a journal column [inches]
 STYLE: Any = {  # matplotlib's own type lists every setting by name

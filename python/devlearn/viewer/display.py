@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _markup as markup
+from .._colours import BLUE, BY_KIND, GREEN, INK, OBSTACLE, VERMILLION
 from .._core import (
     AdaptiveExplanation,
     AdaptiveLearner,
@@ -41,18 +42,16 @@ _MOST_DRAWN = 360  # motions
 _MOST_ROWS = 12  # of a table
 _MOST_NAMED = 12  # motions with a number
 
-# Okabe and Ito (2008): told apart by the colour-blind.
-_BLUE, _GREEN, _VERMILLION = "#0072B2", "#009E73", "#D55E00"
-_INK, _OBSTACLE = "#222222", "#A9CBE6"
-_KINDS: dict[Kind, tuple[str, int]] = {  # colour, width [units]; drawn in this order
-    Kind.UNSTATED: ("#7F7F7F", 8),
-    Kind.EXPLORE: ("#E69F00", 22),
-    Kind.EXHAUSTED: ("#56B4E9", 14),
-    Kind.HELD: ("#7F7F7F", 14),
-    Kind.DEVIATION: ("#CC79A7", 22),
-    Kind.HABIT: (_GREEN, 14),
-    Kind.EXPLOIT: (_INK, 10),
+_WIDTHS = {  # of lines [units]
+    Kind.UNSTATED: 8,
+    Kind.HELD: 22,
+    Kind.HABIT: 14,
+    Kind.DEVIATION: 22,
+    Kind.EXPLORE: 22,
+    Kind.EXHAUSTED: 14,
+    Kind.EXPLOIT: 10,
 }
+_KINDS = {kind: (colour, _WIDTHS[kind]) for kind, colour in BY_KIND.items()}
 
 
 # --- worlds ---------------------------------------------------------------------------------------
@@ -98,13 +97,13 @@ def _ground(world: World, time: float = 0.0) -> tuple[Frame, str, str]:
     walls = [shape.points for shape in shapes if isinstance(shape, Polyline)]
     solid, coarse = Lines.of(frame, rings).thinned(_MOST_POINTS)
     thin, coarser = Lines.of(frame, walls).thinned(_MOST_POINTS)
-    outline = {"stroke": _BLUE, "stroke_width": 7, "stroke_linejoin": "round"}
+    outline = {"stroke": BLUE, "stroke_width": 7, "stroke_linejoin": "round"}
     courses = Lines.of(frame, [_course(mover.course) for mover in world.movers])
     ways, coarsest = courses.thinned(_MOST_POINTS)
     ground = markup.clipped(
         frame,
         element(
-            "path", d=solid.path(closed=True), fill=_OBSTACLE, stroke_linecap="round", **outline
+            "path", d=solid.path(closed=True), fill=OBSTACLE, stroke_linecap="round", **outline
         ),
         element("path", d=thin.path(), fill="none", stroke_linecap="round", **outline),
         element("path", d=ways.path(), fill="none", stroke_dasharray="40 20", **outline),
@@ -113,11 +112,11 @@ def _ground(world: World, time: float = 0.0) -> tuple[Frame, str, str]:
     star = element(
         "path",
         d=f"M{x} {y - 70}l17 46 49 2-38 31 13 47-41-27-41 27 13-47-38-31 49-2z",
-        fill=_VERMILLION,
+        fill=VERMILLION,
         stroke="white",
         stroke_width=5,
     )
-    wall = element("rect", width=frame.width, height=frame.height, fill="none", stroke=_INK,
+    wall = element("rect", width=frame.width, height=frame.height, fill="none", stroke=INK,
                    stroke_width=16)  # fmt: skip
     grid = max(coarse, coarser, coarsest)
     told = f"Thinned to a grid of {number(grid / frame.scale)} m." if grid > 1 else ""
@@ -161,7 +160,7 @@ def _body(frame: Frame, radius: float, pose: Sequence[float]) -> str:
     ahead = f"M{x} {y}l{round(r * math.cos(angle))} {round(-r * math.sin(angle))}"
     return element(
         "g",
-        element("circle", cx=x, cy=y, r=r, fill=_GREEN, stroke=_INK, stroke_width=7),
+        element("circle", cx=x, cy=y, r=r, fill=GREEN, stroke=INK, stroke_width=7),
         element("path", d=ahead, stroke="white", stroke_width=14),
     )
 
@@ -180,10 +179,8 @@ def robot_svg(robot: Robot) -> str:
         rays.append(np.array(pose[:2]) + reach * [math.cos(direction), math.sin(direction)])
         if echo < body.sonar_range:
             echoes.append(rays[-1][1:])
-    heard = element(
-        "path", d=Lines.of(frame, rays).path(), fill="none", stroke=_INK, stroke_width=7
-    )
-    met = element("path", d=Lines.of(frame, echoes).path(), stroke=_INK, stroke_width=30,
+    heard = element("path", d=Lines.of(frame, rays).path(), fill="none", stroke=INK, stroke_width=7)
+    met = element("path", d=Lines.of(frame, echoes).path(), stroke=INK, stroke_width=30,
                   stroke_linecap="round")  # fmt: skip
     drawn = ground + markup.clipped(frame, heard, met) + _body(frame, body.radius, pose)
     return markup.picture(
@@ -217,14 +214,14 @@ def _motions(body: RobotDef) -> list[tuple[int, str]]:
         lines = Lines(ends.reshape(-1, 2), np.repeat(np.arange(len(ends)), 2))
         return element("path", d=lines.path(), fill="none", **how)
 
-    drawn = marks(body.sonar_angles(), 12 * PIXEL, stroke=_BLUE, stroke_width=6)
-    drawn += marks(angles[:_MOST_DRAWN], 20 * PIXEL, stroke=_VERMILLION, stroke_width=12)
+    drawn = marks(body.sonar_angles(), 12 * PIXEL, stroke=BLUE, stroke_width=6)
+    drawn += marks(angles[:_MOST_DRAWN], 20 * PIXEL, stroke=VERMILLION, stroke_width=12)
     few = angles[:_MOST_NAMED]
     if len(angles) == len(few):
         for motion, (x, y) in enumerate(towards(few, radius + 30 * PIXEL)[:, 0].tolist()):
             drawn += markup.words(x, y + 4 * PIXEL, str(motion), text_anchor="middle")
     x, y = middle.tolist()
-    drawn += element("circle", cx=x, cy=y, r=radius, fill=_GREEN, stroke=_INK, stroke_width=7)
+    drawn += element("circle", cx=x, cy=y, r=radius, fill=GREEN, stroke=INK, stroke_width=7)
     drawn += element("path", stroke="white", stroke_width=20, d=f"M{x} {y}v-{radius}")
     step = f"{number(body.speed * body.sample_time)} m in {number(body.sample_time)} s"
     turns = ", ".join(map(number, few)) + (", \u2026" if len(angles) > len(few) else "")
@@ -334,9 +331,9 @@ def _chart(rounds: npt.NDArray[np.void]) -> list[tuple[int, str]]:
     dots = Lines(points[failed], np.arange(sum(failed)))
     right = {"text_anchor": "end"}
     drawn = [
-        element("path", d=f"M{left} {height + 40}H{_SIDE * PIXEL}", stroke=_INK, stroke_width=5),
-        element("path", d=line.path(), fill="none", stroke=_BLUE, stroke_width=12),
-        element("path", d=dots.path(), fill="none", stroke=_VERMILLION,
+        element("path", d=f"M{left} {height + 40}H{_SIDE * PIXEL}", stroke=INK, stroke_width=5),
+        element("path", d=line.path(), fill="none", stroke=BLUE, stroke_width=12),
+        element("path", d=dots.path(), fill="none", stroke=VERMILLION,
                 stroke_width=50, stroke_linecap="round"),
         markup.words(left - 60, 140, number(high), **right),
         markup.words(left - 60, height + 40, number(low), **right) if high > low else "",

@@ -189,7 +189,7 @@ def test_the_path_that_is_drawn_begins_at_the_start_and_ends_where_the_robot_did
     [pieces] = [
         [path.get("d") for path in clip.iter(f"{SVG}path")]
         for clip in inner
-        if any(path.get("stroke") == "#222222" for path in clip.iter(f"{SVG}path"))
+        if any(path.get("stroke") == "#000000" for path in clip.iter(f"{SVG}path"))
     ]
     ends = set()
     for piece in "".join(pieces).split("M")[1:]:
