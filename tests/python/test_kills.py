@@ -171,7 +171,10 @@ def life(folder, random):
     state = folder / "state.safetensors"
 
     def version():
-        return state.stat().st_ino if state.exists() else None
+        try:
+            return state.stat().st_ino
+        except FileNotFoundError:  # not yet, or no longer
+            return None
 
     before, run = version(), start(folder)
     while run.poll() is None and version() == before:
