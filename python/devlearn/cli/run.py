@@ -30,6 +30,9 @@ examples:
   devlearn run my_world.json --preset step5 --set learner.sigma=0.5
 """
 
+PHASES = ("free_1", "free_2", "paths")
+"""The records that a run leaves in its folder, without their endings."""
+
 
 def add_to(verbs: Any) -> None:
     """Adds the verb to the command line's."""
@@ -137,10 +140,9 @@ def _made(
     from ..record import written_aside
 
     kinds = ("npz", "csv") if options.csv else ("npz",)
-    names = ("free_1", "free_2", "paths")
     whence = survival.begin(
         folder, world, config, options.seed, {**planned.to_dict(), "echoes": options.echoes},
-        files=[f"{name}.{kind}" for name in names for kind in kinds] + ["rounds.csv"],
+        files=[f"{name}.{kind}" for name in PHASES for kind in kinds] + ["rounds.csv"],
         overwrite=options.overwrite,
     )  # fmt: skip
     try:
@@ -149,7 +151,7 @@ def _made(
         )
         made = schedule.run_of(whole, trial)
         phases = (slice(0, 1), slice(1, 2), slice(2, None))
-        for name, record in zip(names, parts(whole, *phases)):
+        for name, record in zip(PHASES, parts(whole, *phases)):
             record.save(folder / f"{name}.npz")
             if options.csv:
                 record.to_csv(folder / f"{name}.csv")

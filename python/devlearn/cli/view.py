@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .console import say
+from .run import PHASES
 
 if TYPE_CHECKING:
     from .._core import World
@@ -24,7 +25,6 @@ examples:
   devlearn view out/run/paths.npz --rounds 1:20
   devlearn view office --output office.html
 """
-_PHASES = ("free_1.npz", "free_2.npz", "paths.npz")  # as devlearn run writes them
 
 
 def add_to(verbs: Any) -> None:
@@ -84,7 +84,8 @@ def recorded(names: list[str]) -> Record | World:
 
     files = []
     for name in names:
-        phases = [Path(name) / phase for phase in _PHASES if (Path(name) / phase).exists()]
+        phases = [Path(name) / f"{phase}.npz" for phase in PHASES]
+        phases = [file for file in phases if file.exists()]
         if Path(name).is_dir() and not phases:
             raise FileError(name, "", "a folder without records", "one that devlearn run finished")
         files += phases or [Path(name)]
