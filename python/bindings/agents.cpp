@@ -95,6 +95,11 @@ struct MotionCountTag {
   static constexpr const char* quantity = "motion_count";
   static constexpr const char* allowed = "a whole number in [1, 65535]";
 };
+struct EventTag {
+  using type = int;
+  static constexpr const char* quantity = "event";
+  static constexpr const char* allowed = "a whole number in [-1, 63]";
+};
 
 /// An agent written in Python.
 class PythonAgent final : public Agent {
@@ -240,19 +245,22 @@ KeptObservation::KeptObservation(const Observation& seen) : Observation(seen) {
   if (!seen.allowed.every()) {
     mask.emplace(seen.allowed.data(), seen.allowed.data() + seen.allowed.size());
   }
+  if (!seen.senses.empty()) sensed.emplace(seen.senses.begin(), seen.senses.end());
   allowed = {};
+  senses = {};
+}
+
+SeenObservation::SeenObservation(const KeptObservation& kept) : seen_(kept) {
+  if (kept.sensed) seen_.senses = {kept.sensed->data(), kept.sensed->size()};
+  if (!kept.mask) return;
+  allowed_ = std::make_unique<bool[]>(kept.mask->size());
+  std::copy(kept.mask->begin(), kept.mask->end(), allowed_.get());
+  seen_.allowed = {allowed_.get(), kept.mask->size()};
+  seen_.allowed.validate(seen_.motion_count);
 }
 
 Choice choice_of(Agent& agent, const KeptObservation& observation) {
-  Observation seen = observation;
-  std::unique_ptr<bool[]> allowed;
-  if (observation.mask) {
-    allowed = std::make_unique<bool[]>(observation.mask->size());
-    std::copy(observation.mask->begin(), observation.mask->end(), allowed.get());
-    seen.allowed = {allowed.get(), observation.mask->size()};
-    seen.allowed.validate(seen.motion_count);
-  }
-  return agent.choose(seen);
+  return agent.choose(SeenObservation(observation));
 }
 
 std::string name_of(const py::object& named) {
@@ -362,11 +370,12 @@ void bind_agents(py::module_& m) {
       "What an agent knows when it chooses.\n\n"
       "A trial makes it. So does, with what agents of devlearn's look at, a loop of one's own:\n"
       "situation, a whole number in [0, 2**63 - 1]; motion_count in [1, 65535]; estimate and sef,\n"
-      "numbers; allowed, bools, one a motion (None: every one). What is left out is 0. Raises\n"
-      "InvalidValue.");
+      "numbers; allowed, bools, one a motion (None: every one); senses, finite numbers (None: no\n"
+      "such). What is left out is 0. Raises InvalidValue.");
   observation
       .def(py::init([](Whole<SituationTag> situation, Whole<MotionCountTag> motion_count,
-                       double estimate, double sef, const Mask& allowed) {
+                       double estimate, double sef, const Mask& allowed,
+                       const std::optional<std::vector<double>>& senses) {
              require_count("situation", situation.value, 0,
                            std::numeric_limits<SituationId>::max());
              require_count("motion_count", motion_count.value, 1, 65535);
@@ -377,10 +386,14 @@ void bind_agents(py::module_& m) {
              seen.sef = sef;
              seen.allowed = allowed;
              seen.allowed.validate(seen.motion_count);
+             if (senses) {
+               for (const double value : *senses) require_finite("senses", value);
+               seen.senses = {senses->data(), senses->size()};
+             }
              return KeptObservation(seen);
            }),
            py::arg("situation"), py::arg("motion_count"), py::kw_only(), py::arg("estimate") = 0.0,
-           py::arg("sef") = 0.0, py::arg("allowed") = py::none())
+           py::arg("sef") = 0.0, py::arg("allowed") = py::none(), py::arg("senses") = py::none())
       .def_readonly("situation", &Observation::situation, "The present situation's id.")
       .def_readonly("pose", &Observation::pose, "[m, m, degrees]")
       .def_readonly("sef", &Observation::sef, "SEF here.")
@@ -400,6 +413,14 @@ void bind_agents(py::module_& m) {
           },
           "Of these, the motions that the robot can make: bools, one a motion; None for every "
           "one.")
+      .def_property_readonly(
+          "senses",
+          [](const KeptObservation& self) -> std::optional<py::array_t<double>> {
+            if (!self.sensed) return std::nullopt;
+            return py::array_t<double>(static_cast<py::ssize_t>(self.sensed->size()),
+                                       self.sensed->data());
+          },
+          "What a task senses, as numbers; None where there are none, as in a trial.")
       .def(
           "__repr__",
           shown(
@@ -410,23 +431,26 @@ void bind_agents(py::module_& m) {
                "motion_count"}));
   def_result(observation, &Observation::situation, &Observation::pose, &Observation::sef,
              &Observation::goal_distance, &Observation::clearance, &Observation::estimate,
-             &Observation::motion_count, &KeptObservation::mask);
+             &Observation::motion_count, &KeptObservation::mask, &KeptObservation::sensed);
   py::class_<Outcome> outcome(
       m, "Outcome",
       "What an agent is told about the motion it chose.\n\n"
       "A trial makes it; so does a loop of one's own: situation, a whole number in\n"
-      "[0, 2**63 - 1]; cost, estimate, sef and smf, numbers; arrived and collided, bools. Raises\n"
-      "InvalidValue.");
+      "[0, 2**63 - 1]; cost, estimate, sef and smf, numbers; arrived and collided, bools; event, "
+      "a\n"
+      "whole number in [-1, 63]. Raises InvalidValue.");
   outcome
       .def(py::init([](Whole<SituationTag> situation, double cost, double estimate, bool arrived,
-                       double sef, double smf, bool collided) {
+                       double sef, double smf, bool collided, Whole<EventTag> event) {
              require_count("situation", situation.value, 0,
                            std::numeric_limits<SituationId>::max());
-             return Outcome{situation.value, sef, smf, collided, arrived, estimate, cost};
+             require_count("event", event.value, -1, kEventCount - 1);
+             return Outcome{situation.value, sef,      smf,  collided,
+                            arrived,         estimate, cost, event.value};
            }),
            py::arg("situation"), py::kw_only(), py::arg("cost") = 1.0, py::arg("estimate") = 0.0,
            py::arg("arrived") = false, py::arg("sef") = 0.0, py::arg("smf") = 0.0,
-           py::arg("collided") = false)
+           py::arg("collided") = false, py::arg("event") = -1)
       .def_readonly("situation", &Outcome::situation, "The next situation's id.")
       .def_readonly("sef", &Outcome::sef, "SEF there.")
       .def_readonly("smf", &Outcome::smf, "SMF as learned from: min(SMF, -1) for a collision.")
@@ -435,15 +459,19 @@ void bind_agents(py::module_& m) {
       .def_readonly("estimate", &Outcome::estimate, "Cost to go from there, as in Observation.")
       .def_readonly("cost", &Outcome::cost,
                     "What the step cost: 1, and touch_cost more if it collided.")
+      .def_readonly("event", &Outcome::event,
+                    "The salient event that it was, in [0, 63], -1 for none. In a trial 0 is an "
+                    "arrival, and 1 a touch.")
       .def_property_readonly("reward", &Outcome::reward, "-cost.")
       .def(
           "__repr__",
           shown("<devlearn.Outcome: situation {}, sef {:.4g}, smf {:.4g}, collided {}, arrived {}, "
-                "estimate {:.4g}, cost {:.4g}, reward {:.4g}>",
-                {"situation", "sef", "smf", "collided", "arrived", "estimate", "cost", "reward"}));
+                "estimate {:.4g}, cost {:.4g}, reward {:.4g}, event {}>",
+                {"situation", "sef", "smf", "collided", "arrived", "estimate", "cost", "reward",
+                 "event"}));
 
   def_result(outcome, &Outcome::situation, &Outcome::sef, &Outcome::smf, &Outcome::collided,
-             &Outcome::arrived, &Outcome::estimate, &Outcome::cost);
+             &Outcome::arrived, &Outcome::estimate, &Outcome::cost, &Outcome::event);
   py::class_<RandomAgent, std::shared_ptr<RandomAgent>> random_agent(
       m, "RandomAgent", "Uniformly random motions: what learning is measured against.");
   random_agent

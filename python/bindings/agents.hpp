@@ -29,12 +29,25 @@ using OwnAgents = Agents<RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, Dyn
 /// The class of one of them, without its module; null for any other.
 const char* own_name(const Agent& agent);
 
-/// An observation that Python may keep: what is allowed is its own.
+/// An observation that Python may keep: what is allowed and sensed is its own.
 struct KeptObservation : Observation {
   KeptObservation() = default;
   explicit KeptObservation(const Observation& seen);
 
   std::optional<std::vector<bool>> mask;
+  std::optional<std::vector<double>> sensed;
+};
+
+/// An observation of the ones that Python keeps, as C++ sees it while this lives.
+class SeenObservation {
+ public:
+  /// Throws InvalidValue for a mask that does not fit.
+  explicit SeenObservation(const KeptObservation& kept);
+  operator const Observation&() const noexcept { return seen_; }
+
+ private:
+  Observation seen_;
+  std::unique_ptr<bool[]> allowed_;
 };
 
 /// What an agent chooses, of the motions that the observation allows.

@@ -11,6 +11,9 @@
 
 #include "agents.hpp"
 #include "bindings.hpp"
+#include "devlearn/adaptive_agent.hpp"
+#include "devlearn/learner_agent.hpp"
+#include "devlearn/task.hpp"
 #include "devlearn/trial.hpp"
 
 namespace devlearn::python {
@@ -181,13 +184,7 @@ void require_free(const void* object, const char* name, InHand::For what) {
 
 InHand::InHand(const Trial& trial, For what) : InHand() {
   take(&trial, "Trial", what);
-  if (const auto learner = trial.learner()) {
-    take(learner.get(), "Learner", what);
-  } else if (const auto adaptive = trial.adaptive_learner()) {
-    take(adaptive.get(), "AdaptiveLearner", what);
-  } else if (const char* const own = own_name(*trial.agent())) {
-    take(trial.agent().get(), own, what);
-  }
+  take(*trial.agent(), what);
 }
 
 InHand::InHand(const Learner& learner, For what) : InHand() { take(&learner, "Learner", what); }
@@ -206,6 +203,22 @@ InHand::InHand(const Tally* tally) : InHand() {
 }
 
 InHand::InHand(const Batch& batch) : InHand() { take(&batch, "Batch", For::kRunning); }
+
+InHand::InHand(const Task& task, const Agent& agent) : InHand() {
+  take(&task, "Task", For::kRunning);
+  take(agent, For::kRunning);
+}
+
+// What Python knows of it: a learner is itself, whoever it chooses for.
+void InHand::take(const Agent& agent, For what) {
+  if (const auto* const of_learner = dynamic_cast<const LearnerAgent*>(&agent)) {
+    take(of_learner->learner().get(), "Learner", what);
+  } else if (const auto* const of_adaptive = dynamic_cast<const AdaptiveAgent*>(&agent)) {
+    take(of_adaptive->learner().get(), "AdaptiveLearner", what);
+  } else if (const char* const own = own_name(agent)) {
+    take(&agent, own, what);
+  }
+}
 
 void InHand::take(const void* object, const char* name, For what) {
   leave_if_late();

@@ -18,6 +18,7 @@ namespace py = pybind11;
 namespace devlearn {
 class Agent;
 class Batch;
+class Task;
 class Tally;
 class Trial;
 }  // namespace devlearn
@@ -91,6 +92,8 @@ class InHand {
   explicit InHand(const Tally* tally);
   /// Of a step or a reset of one.
   explicit InHand(const Batch& batch);
+  /// Of an agent's run through a task.
+  InHand(const Task& task, const Agent& agent);
   ~InHand();
   InHand(const InHand&) = delete;
   InHand& operator=(const InHand&) = delete;
@@ -98,6 +101,7 @@ class InHand {
  private:
   InHand() = default;
   void take(const void* object, const char* name, For what);
+  void take(const Agent& agent, For what);
   std::vector<const void*> mine_;
 };
 

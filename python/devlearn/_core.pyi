@@ -63,6 +63,7 @@ __all__: list[str] = [
     "StateEvaluation",
     "Step",
     "Tally",
+    "Task",
     "Trial",
     "TrialConfig",
     "World",
@@ -77,6 +78,7 @@ __all__: list[str] = [
     "pose_columns",
     "record_in_snapshot",
     "require_record",
+    "run_episodes",
     "shortest_path",
     "step_columns",
     "wrapped_heading",
@@ -2080,8 +2082,8 @@ class Observation:
 
     A trial makes it. So does, with what agents of devlearn's look at, a loop of one's own:
     situation, a whole number in [0, 2**63 - 1]; motion_count in [1, 65535]; estimate and sef,
-    numbers; allowed, bools, one a motion (None: every one). What is left out is 0. Raises
-    InvalidValue.
+    numbers; allowed, bools, one a motion (None: every one); senses, finite numbers (None: no
+    such). What is left out is 0. Raises InvalidValue.
     """
 
     __hash__: typing.ClassVar[None] = None  # type: ignore
@@ -2095,6 +2097,7 @@ class Observation:
         estimate: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         sef: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         allowed: collections.abc.Sequence[bool] | numpy.typing.NDArray[numpy.bool_] | None = None,
+        senses: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] | None = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
@@ -2134,6 +2137,11 @@ class Observation:
         SEF here.
         """
     @property
+    def senses(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        """
+        What a task senses, as numbers; None where there are none, as in a trial.
+        """
+    @property
     def situation(self) -> int:
         """
         The present situation's id.
@@ -2144,8 +2152,8 @@ class Outcome:
     What an agent is told about the motion it chose.
 
     A trial makes it; so does a loop of one's own: situation, a whole number in
-    [0, 2**63 - 1]; cost, estimate, sef and smf, numbers; arrived and collided, bools. Raises
-    InvalidValue.
+    [0, 2**63 - 1]; cost, estimate, sef and smf, numbers; arrived and collided, bools; event, a
+    whole number in [-1, 63]. Raises InvalidValue.
     """
 
     __hash__: typing.ClassVar[None] = None  # type: ignore
@@ -2161,6 +2169,7 @@ class Outcome:
         sef: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         smf: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         collided: bool = False,
+        event: typing.SupportsIndex = -1,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
@@ -2183,6 +2192,11 @@ class Outcome:
     def estimate(self) -> float:
         """
         Cost to go from there, as in Observation.
+        """
+    @property
+    def event(self) -> int:
+        """
+        The salient event that it was, in [0, 63], -1 for none. In a trial 0 is an arrival, and 1 a touch.
         """
     @property
     def reward(self) -> float:
@@ -3216,6 +3230,37 @@ class ShortestPathAgent:
         Of the target [m].
         """
 
+class Task:
+    """
+    An environment that is no world of the robot's: what all in devlearn.tasks have. An episode
+    is begun, then observed and stepped until an outcome has arrived, or for as long as one
+    likes. Not while another thread's run has it in hand.
+    """
+
+    interrupted: devlearn.record.Record | None
+    def begin(self, seed: typing.SupportsIndex = 0) -> None:
+        """
+        An episode begins, whatever was before. All that is by chance in it follows from seed, in [0, 2**64 - 1]. Raises InvalidValue.
+        """
+    def observation(self) -> Observation:
+        """
+        What is observed now. Raises InvalidValue where no episode is under way.
+        """
+    def step(self, motion: typing.SupportsIndex) -> Outcome:
+        """
+        Executes a motion. Where the episode has ended, well or not, the outcome has arrived. Raises InvalidValue for a motion that is none, and where no episode is under way.
+        """
+    @property
+    def motion_count(self) -> int:
+        """
+        M: motions are 0 ... motion_count - 1.
+        """
+    @property
+    def succeeded(self) -> bool:
+        """
+        Whether the episode that has ended ended well.
+        """
+
 class NoiseDef:
     """
     By how much chance spoils what a robot does and senses: standard deviations, and chances,
@@ -3968,6 +4013,35 @@ def record_in_snapshot(path: typing.Any) -> typing.Any:
 def require_record(record: typing.Any) -> None:
     """
     Raises InvalidValue unless a Record holds what a trial can write.
+    """
+
+def run_episodes(
+    task: typing.Any,
+    agent: typing.Any,
+    episodes: typing.SupportsIndex,
+    *,
+    seed: typing.SupportsIndex = 0,
+    first: typing.SupportsIndex = 0,
+    step_limit: typing.SupportsIndex = 10000,
+    stop: threading.Event | None = None,
+    progress: collections.abc.Callable[[int, int], typing.Any] | None = None,
+) -> numpy.ndarray:
+    """
+    An agent lives through episodes of a task, each a round, and goes on learning.
+
+    Episode i begins with a seed drawn from seed and i: runs in pieces equal one in one call,
+    and devlearn.envs.LearnerOn on the task as an environment.
+
+    Parameters: task, one of devlearn.tasks; agent, as of a Trial, shared and not copied;
+    episodes, how many, >= 0; seed of the task, in [0, 2**64 - 1]; first, the first one's
+    number, >= 0; step_limit, steps after which an episode is cut off, >= 1; stop, a
+    threading.Event or what has its is_set(), ends the run; progress, called as
+    progress(done, total), ten times a second at most and at the end.
+
+    Returns an array with the fields reward (the sum of all steps'), steps, ended (by the
+    task, not by the limit) and succeeded, an entry an episode. Raises InvalidValue, and what
+    the agent raises. An episode that is broken off, also by Ctrl-C, is not counted: what was
+    finished is in task.interrupted, and a run with first begins with it anew.
     """
 
 def shortest_path(

@@ -17,6 +17,8 @@ from devlearn import (
     Kind,
     Learner,
     LearnerConfig,
+    Observation,
+    Outcome,
     RandomAgent,
     Trial,
     TrialConfig,
@@ -417,7 +419,33 @@ def test_what_an_agent_is_told_shows_itself(paper):
     )
     assert f"estimate {asked.estimate:.4g}, motion_count 5>" in repr(asked)
     assert repr(told).startswith(f"<devlearn.Outcome: situation {told.situation}, sef")
-    assert "cost 1, reward -1>" in repr(told)
+    assert "cost 1, reward -1, event -1>" in repr(told)
+
+
+def test_a_trial_tells_of_arrivals_and_touches_as_salient_events(paper):
+    random = devlearn.Random(2, "motions")
+    agent = Loop(lambda n: random.index(5))
+    Trial(paper, agent=agent).path_learning(2)
+    told = {(outcome.arrived, outcome.collided, outcome.event) for outcome in agent.told}
+    assert {(arrived, event) for arrived, _, event in told if arrived} == {(True, 0)}
+    assert {told for told in told if not told[0]} == {(False, True, 1), (False, False, -1)}
+
+
+def test_what_is_sensed_as_numbers_is_the_observation_s_own_and_kept_with_it():
+    sensed = np.array([0.5, -2.0])
+    seen = Observation(3, 5, senses=sensed)
+    sensed[0] = seen.senses[1] = 7.0
+    assert seen.senses.tolist() == [0.5, -2.0]
+    assert pickle.loads(pickle.dumps(seen)) == seen != Observation(3, 5, senses=[0.5])
+    assert Observation(3, 5).senses is None
+
+
+def test_senses_and_events_out_of_range_are_refused():
+    with pytest.raises(devlearn.InvalidValue, match=r"senses.*nan.*finite"):
+        Observation(3, 5, senses=[0.0, float("nan")])
+    for event in (-2, 64):
+        with pytest.raises(devlearn.InvalidValue, match=rf"event.*{event}.*\[-1, 63\]"):
+            Outcome(3, event=event)
 
 
 # --- saved ---------------------------------------------------------------------------------------

@@ -17,6 +17,7 @@ from devlearn import (
     WrongType,
     _core,
     agents,
+    tasks,
 )
 
 WORLD = World.load("empty")
@@ -120,7 +121,7 @@ ODD = [
 # What is only had from a call has no constructor, and says so.
 RESULTS = {
     "AdaptiveExplanation", "AdaptiveMemory", "BatchRows", "ChoiceTrace", "Explanation", "MemoryUse",
-    "Recollection", "ShortestPath", "SituationMemory", "Step",
+    "Recollection", "ShortestPath", "SituationMemory", "Step", "Task",
 }  # fmt: skip
 
 
@@ -142,6 +143,11 @@ def public():
             name: agent(Robot(WORLD)) if name == "ShortestPathAgent" else agent()
             for name, agent in vars(agents).items()
             if name in agents.__all__
+        },
+        **{
+            name: task()
+            for name, task in vars(tasks).items()
+            if inspect.isclass(task) and issubclass(task, tasks.Task) and task is not tasks.Task
         },
         "AdaptiveLearner": devlearn.AdaptiveLearner(), "AdaptiveConfig": devlearn.AdaptiveConfig(),
     }  # fmt: skip

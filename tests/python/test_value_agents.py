@@ -54,7 +54,7 @@ class ByHand:
         return self.agent.choose(mine)
 
     def observe(self, outcome):
-        told = ("cost", "estimate", "arrived", "sef", "smf", "collided")
+        told = ("cost", "estimate", "arrived", "sef", "smf", "collided", "event")
         mine = {name: getattr(outcome, name) for name in told}
         assert devlearn.Outcome(outcome.situation, **mine) == outcome
         self.agent.observe(devlearn.Outcome(outcome.situation, **mine))
@@ -93,7 +93,7 @@ def test_what_no_observation_may_hold_is_refused_by_hand():
     # What comes out of a pickle is looked at when it is used.
     one = devlearn.Observation(0, 2, allowed=[True, False])
     state = list(one.__getstate__())
-    state[-1] = [True]
+    state[-2] = [True]
     forged = devlearn.Observation.__new__(devlearn.Observation)
     forged.__setstate__(tuple(state))
     refused(lambda: devlearn.RandomAgent().choose(forged), "allowed")

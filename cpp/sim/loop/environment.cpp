@@ -303,7 +303,11 @@ Outcome Environment::outcome_of(const State& next, double smf, bool collided) co
   outcome.collided = collided;
   outcome.arrived = next.arrived;
   outcome.estimate = next.here.estimate;
-  if (collided) outcome.cost += config().touch_cost;
+  if (collided) {
+    outcome.cost += config().touch_cost;
+    outcome.event = kTouchEvent;
+  }
+  if (next.arrived) outcome.event = kArrivalEvent;
   return outcome;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -14,6 +15,33 @@
 
 namespace devlearn {
 
+/// What is sensed, as numbers: a view.
+class Readings {
+ public:
+  /// None.
+  Readings() = default;
+  /// values: count of them.
+  Readings(const double* values, std::size_t count) noexcept : values_(values), count_(count) {}
+
+  bool empty() const noexcept { return count_ == 0; }              ///< whether there are none
+  std::size_t size() const noexcept { return count_; }             ///< how many
+  const double* begin() const noexcept { return values_; }         ///< the first
+  const double* end() const noexcept { return values_ + count_; }  ///< behind the last
+  double operator[](std::size_t i) const noexcept { return values_[i]; }  ///< one of them
+
+ private:
+  const double* values_ = nullptr;
+  std::size_t count_ = 0;
+};
+
+/// Salient events have numbers from 0 to below this one.
+constexpr int kEventCount = 64;
+///@{
+/// Those of a trial: it arrived; it touched something.
+constexpr int kArrivalEvent = 0;
+constexpr int kTouchEvent = 1;
+///@}
+
 /// What an agent knows when it chooses.
 struct Observation {
   SituationId situation = -1;  ///< S_i
@@ -24,6 +52,7 @@ struct Observation {
   double estimate = 0.0;   ///< cost to go at the least, in steps: d_g / (v t_s), 0 at the target
   int motion_count = 0;    ///< choose one in 0 ... motion_count - 1
   AllowedMotions allowed;  ///< of these; valid during the call
+  Readings senses;         ///< what a task senses; none in a trial; valid during the call
 };
 
 /// What an agent is told about the motion it chose.
@@ -35,6 +64,7 @@ struct Outcome {
   bool arrived = false;        ///< d_g <= goal_radius
   double estimate = 0.0;       ///< cost to go from there, as in Observation
   double cost = 1.0;           ///< what the step cost: 1, and touch_cost more if collided
+  int event = -1;              ///< the salient event that it was, below kEventCount; -1: none
   /// -cost
   double reward() const noexcept { return -cost; }
 };

@@ -1,0 +1,9 @@
+"""Tasks of the systems that the paper stands on: environments that are no world of the robot's.
+
+An agent lives through episodes of a task by run, or step by step.
+"""
+
+from ._core import Task
+from ._core import run_episodes as run
+
+__all__ = ["Task", "run"]
