@@ -71,6 +71,7 @@ if TYPE_CHECKING:
     from .experiments.sweep import sweep
     from .record import Record
     from .viewer.film import animate
+    from .viewer.live import view
 
 __all__ = [
     "AdaptiveConfig",
@@ -127,6 +128,7 @@ __all__ = [
     "may_reach_target",
     "shortest_path",
     "sweep",
+    "view",
     "worlds",
     "wrapped_heading",
 ]
@@ -136,6 +138,7 @@ _FURTHER = {
     "Results": ".experiments.store",
     "animate": ".viewer.film",
     "sweep": ".experiments.sweep",
+    "view": ".viewer.live",
 }
 
 if not TYPE_CHECKING:

@@ -165,6 +165,8 @@ EXTRAS = {
     "distributed": "experiments",
     "gymnasium": "envs",
     "imageio_ffmpeg": "viewer",
+    "rerun": "viewer",
+    "pyarrow": "viewer",
     "PIL": "maps",
     "shapely": "maps",
     "skimage": "maps",

@@ -210,6 +210,14 @@ def test_what_helps_against_failures_runs_and_helps(tmp_path, monkeypatch):
     assert 0 < names["safe"].collided.sum() < careless.collided.sum() / 3
 
 
+def test_the_guide_to_watching_runs_as_it_stands(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = run_python_of((ROOT / "docs/live.md").read_text(encoding="utf-8"))
+    assert names["live"].failed is None
+    assert names["live"].steps == len(names["free"]) + len(names["paths"])
+    assert (tmp_path / "run.rrd").stat().st_size > 100_000
+
+
 GALLERY = sorted((ROOT / "docs/gallery").glob("*.py"))
 
 

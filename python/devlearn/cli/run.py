@@ -5,16 +5,18 @@ from __future__ import annotations
 import argparse
 import json
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .console import say, warn
 
 if TYPE_CHECKING:
-    from .._core import RobotDef, TrialConfig, World
+    from .._core import RobotDef, Trial, TrialConfig
     from ..experiments.schedule import Schedule
     from ..paper.schedule import Run
+    from ..record import Record
 
 _DESCRIPTION = """\
 One experiment: two rounds of free learning, then path learning by rounds until
@@ -79,6 +81,16 @@ def add_to(verbs: Any) -> None:
         "--save-every", type=int, metavar="N",
         help="save the state every N steps (default: every ten seconds or so)",
     )  # fmt: skip
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--view", action="store_true",
+        help="show it while it learns, in a viewer of Rerun's (needs the extra live and a display)",
+    )  # fmt: skip
+    where.add_argument(
+        "--view-to", metavar="FILE|ADDRESS",
+        help="likewise into a file, .rrd, which rerun opens, or to a viewer that runs "
+        "(rerun+http://127.0.0.1:9876/proxy)",
+    )  # fmt: skip
     parser.add_argument("--echoes", action="store_true", help="record the sonars' echoes, too")
     parser.add_argument("--csv", action="store_true", help="write the records as CSV, too")
     parser.add_argument(
@@ -114,13 +126,13 @@ def _main(options: argparse.Namespace) -> int:
     if options.robot is not None:
         config = _with_robot(config, _core.RobotDef.load(options.robot))
     config = _changed(config, options.set)
-    _core.Trial(world, config, options.seed)  # refuses what cannot run
+    trial = _core.Trial(world, config, options.seed)  # refuses what cannot run
     if not _core.may_reach_target(_core.Robot(world, config.robot), goal_radius=config.goal_radius):
         warn(
             "devlearn: nothing leads this robot from the start to the target; it never will arrive"
         )
     with owned_folder(options.output) as folder:
-        made = _made(folder, world, config, planned, options)
+        made = _made(folder, trial, planned, options)
     for line in _told(made, world.name or options.world, planned):
         say(line)
     say(f"written: {folder}{os.sep}")
@@ -129,8 +141,7 @@ def _main(options: argparse.Namespace) -> int:
 
 def _made(
     folder: Path,
-    world: World,
-    config: TrialConfig,
+    new: Trial,
     planned: Schedule,
     options: argparse.Namespace,
 ) -> Run:
@@ -139,6 +150,7 @@ def _made(
     from ..paper import schedule, survival
     from ..record import written_aside
 
+    world, config = new.world, new.config
     kinds = ("npz", "csv") if options.csv else ("npz",)
     whence = survival.begin(
         folder, world, config, options.seed, {**planned.to_dict(), "echoes": options.echoes},
@@ -146,9 +158,11 @@ def _made(
         overwrite=options.overwrite,
     )  # fmt: skip
     try:
-        trial, whole = survival.run_to_the_end(
-            folder, world, config, options.seed, planned, whence, options.echoes, options.save_every
-        )
+        with _shown(new, planned, options) as seen:
+            trial, whole = survival.run_to_the_end(
+                folder, world, config, options.seed, planned, whence, options.echoes,
+                options.save_every, seen,
+            )  # fmt: skip
         made = schedule.run_of(whole, trial)
         phases = (slice(0, 1), slice(1, 2), slice(2, None))
         for name, record in zip(PHASES, parts(whole, *phases)):
@@ -168,6 +182,31 @@ def _made(
         raise
     survival.end(folder, whence)
     return made
+
+
+@contextmanager
+def _shown(
+    trial: Trial, planned: Schedule, options: argparse.Namespace
+) -> Iterator[Callable[[Record], object]]:
+    """What shows each part of a run: nothing, unless it was asked for."""
+    if not options.view and options.view_to is None:
+        yield lambda part: None
+        return
+    from ..viewer.live import view
+
+    to = options.view_to
+    connect = to if to is not None and "://" in to else None
+    path = to if connect is None else None
+
+    def seen(part: Record) -> None:
+        free = part.rounds["round"] <= len(planned.free)
+        live.send(part, "free learning" if free.any() else "path learning")
+
+    with view(trial, path, connect=connect) as live:
+        yield seen
+    told = f"{live.steps_shown} of {live.steps} steps and all rounds"
+    if live.failed is None:
+        say(f"shown: {told}" + (f": {path}" if path else ""))
 
 
 def _told(made: Run, world: str, planned: Schedule) -> Iterator[str]:

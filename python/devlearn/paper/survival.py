@@ -6,7 +6,7 @@ import json
 import signal
 import threading
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -96,13 +96,15 @@ def run_to_the_end(
     whence: Mapping[str, Any],
     echoes: bool = False,
     save_every: int | None = None,
+    seen: Callable[[Record], object] = lambda part: None,
 ) -> tuple[_core.Trial, Record]:
     """Runs the schedule, from the state in ``folder`` where there is one.
 
     The state is saved there every ``save_every`` steps; by default every ten seconds, and less
     often where that would take more than a twentieth of the time. Ctrl-C or SIGTERM saves it and
     raises KeyboardInterrupt, whose argument is the signal. The history is the same however often
-    it was stopped. Raises FileError where the state is that of another run, or its trial and its
+    it was stopped. ``seen`` is called with each part of the record, the first of which is what
+    there was already. Raises FileError where the state is that of another run, or its trial and its
     record do not belong together.
     """
     state = folder / STATE
@@ -116,11 +118,13 @@ def run_to_the_end(
         trial = _core.Trial.load(state)
         _require_together(state, trial, done, world, config, seed)
         parts = [done]
+        seen(done)
 
     unsaved, saved, cost = 0, time.monotonic(), 0.0
     with _stop_noted() as asked:
         for part in schedule.parts(trial, done, min(AT_ONCE, save_every or AT_ONCE), echoes=echoes):
             parts.append(part)
+            seen(part)
             unsaved += len(part)
             since = time.monotonic() - saved
             due = unsaved >= save_every if save_every else since >= max(SECONDS, cost / SHARE)

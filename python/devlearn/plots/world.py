@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Union, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib import patches
 from matplotlib.collections import PatchCollection
 from matplotlib.lines import Line2D
 from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 
-from .._core import Circle, MoverPath, Polygon, Polyline, Rectangle, Robot, RobotDef, World
+from .._core import Circle, Polygon, Polyline, Rectangle, Robot, RobotDef, World
 from ..analysis.fields import Source, config_of, world_of
+from ..analysis.outlines import Obstacle, corners, course
 from .style import (
     BLUE,
     COLUMN,
@@ -31,8 +31,6 @@ from .style import (
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-_Obstacle = Union[Circle, Rectangle, Polygon, Polyline]
 
 AT_START = "robot at start"
 DASHES = (0, (4, 2))
@@ -84,14 +82,8 @@ def draw_obstacles(ax: Axes, world: World, time: float = 0.0, **how: Any) -> lis
             ax.add_patch(patch)
             patch.set_clip_path(arena)
     for i, mover in enumerate(world.movers):
-        course = mover.course
-        if isinstance(course, MoverPath):
-            points, closed = course.points, course.then == "around"
-        else:
-            (x, y), (right, top) = course.low, course.high
-            points, closed = [(x, y), (right, y), (right, top), (x, top)], True
         ax.plot(
-            *np.array([*points, points[0]] if closed else points).T,
+            *course(mover).T,
             color=how["edgecolor"],
             linewidth=0.7,
             linestyle=DASHES,
@@ -101,11 +93,11 @@ def draw_obstacles(ax: Axes, world: World, time: float = 0.0, **how: Any) -> lis
     return moving
 
 
-def _patch_of(obstacle: _Obstacle, how: Mapping[str, Any]) -> patches.Patch:
+def _patch_of(obstacle: Obstacle, how: Mapping[str, Any]) -> patches.Patch:
     if isinstance(obstacle, Circle):
         return patches.Circle((obstacle.center[0], obstacle.center[1]), obstacle.radius, **how)
     if isinstance(obstacle, Rectangle):
-        return patches.Polygon(_corners(obstacle), closed=True, **how)
+        return patches.Polygon(corners(obstacle), closed=True, **how)
     if isinstance(obstacle, Polyline):
         wall = Path(np.array(obstacle.points, dtype=float))
         return patches.PathPatch(wall, fill=False, joinstyle="round", **how)
@@ -114,20 +106,12 @@ def _patch_of(obstacle: _Obstacle, how: Mapping[str, Any]) -> patches.Patch:
     return patches.Polygon(np.array(obstacle.corners, dtype=float), closed=True, **how)
 
 
-def move_to(patch: patches.Patch, mover: _Obstacle) -> None:
+def move_to(patch: patches.Patch, mover: Obstacle) -> None:
     """The patch of a mover, where that is now."""
     if isinstance(mover, Circle):
         cast(patches.Circle, patch).center = (mover.center[0], mover.center[1])
     else:
-        cast(patches.Polygon, patch).set_xy(_corners(cast(Rectangle, mover)))
-
-
-def _corners(rectangle: Rectangle) -> npt.NDArray[np.float64]:
-    half = np.array(rectangle.size, dtype=float) / 2
-    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half
-    angle = math.radians(rectangle.angle)
-    turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
-    return cast("npt.NDArray[np.float64]", corners @ turn + np.array(rectangle.center))
+        cast(patches.Polygon, patch).set_xy(corners(cast(Rectangle, mover)))
 
 
 def _outline(polygon: Polygon) -> Path:
