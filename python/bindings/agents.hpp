@@ -10,6 +10,7 @@
 #include "devlearn/dyna_q.hpp"
 #include "devlearn/expected_sarsa.hpp"
 #include "devlearn/lrta_star.hpp"
+#include "devlearn/operant_conditioning.hpp"
 #include "devlearn/prioritized_sweeping.hpp"
 #include "devlearn/q_learning.hpp"
 #include "devlearn/r_max.hpp"
@@ -23,8 +24,9 @@ namespace devlearn::python {
 template <class... A>
 struct Agents {};
 /// devlearn's agents that are the same object in Python and in C++.
-using OwnAgents = Agents<RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, DynaQ,
-                         PrioritizedSweeping, LrtaStar, RMax, ShortestPathAgent>;
+using OwnAgents =
+    Agents<RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, DynaQ, PrioritizedSweeping, LrtaStar,
+           RMax, OperantConditioning, ShortestPathAgent>;
 
 /// The class of one of them, without its module; null for any other.
 const char* own_name(const Agent& agent);

@@ -42,6 +42,7 @@ void bind_record(py::module_& m);
 void bind_tally(py::module_& m);
 void bind_agents(py::module_& m);
 void bind_value_agents(py::module_& m);
+void bind_operant_conditioning(py::module_& m);
 void bind_tasks(py::module_& m);
 void bind_trial(py::module_& m);
 void bind_trial_snapshot(py::module_& m);

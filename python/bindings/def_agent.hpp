@@ -50,19 +50,27 @@ py::class_<A, std::shared_ptr<A>> def_agent(py::module_& m, const std::string& n
           py::arg("config") = py::none(), py::arg("seed") = 0)
       .def_property_readonly(
           "config", [](const A& self) { return self.config(); }, "Its settings.")
-      .def(
-          "value",
-          [](const A& self, Whole<SituationTag> situation, Whole<MotionTag> motion) {
-            require_free(&self, own_name(self), InHand::For::kReading);
-            return self.value(situation.value, motion.value);
-          },
-          py::arg("situation"), py::arg("motion"),
-          "The value of a motion in a situation; None for a situation never met. Raises "
-          "InvalidValue.")
       .def("__repr__", [](const py::object& self) {
         return py::str("<devlearn.agents.{}: {!r}>")
             .format(py::type::of(self).attr("__name__"), self.attr("config"));
       });
+  return cls;
+}
+
+/// The class of an agent that learns values of motions.
+template <class A>
+py::class_<A, std::shared_ptr<A>> def_value_agent(py::module_& m, const std::string& name,
+                                                  const std::string& about) {
+  auto cls = def_agent<A>(m, name, about);
+  cls.def(
+      "value",
+      [](const A& self, Whole<SituationTag> situation, Whole<MotionTag> motion) {
+        require_free(&self, own_name(self), InHand::For::kReading);
+        return self.value(situation.value, motion.value);
+      },
+      py::arg("situation"), py::arg("motion"),
+      "The value of a motion in a situation; None for a situation never met. Raises "
+      "InvalidValue.");
   return cls;
 }
 

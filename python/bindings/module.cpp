@@ -67,6 +67,7 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_tally(m);
   devlearn::python::bind_agents(m);
   devlearn::python::bind_value_agents(m);
+  devlearn::python::bind_operant_conditioning(m);
   devlearn::python::bind_tasks(m);
   devlearn::python::bind_trial(m);
   devlearn::python::bind_trial_snapshot(m);

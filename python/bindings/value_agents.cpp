@@ -30,23 +30,24 @@ void bind_shortest_path_agent(py::module_& m) {
 }  // namespace
 
 void bind_value_agents(py::module_& m) {
-  def_agent<QLearning>(m, "QLearning",
-                       "Q-learning (Watkins 1989; Sutton & Barto 6.5), epsilon-greedy:\n\n"
-                       "Q(S, A) <- Q(S, A) + alpha (R + gamma max_a Q(S', a) - Q(S, A)).");
-  def_agent<ExpectedSarsa>(
+  def_value_agent<QLearning>(m, "QLearning",
+                             "Q-learning (Watkins 1989; Sutton & Barto 6.5), epsilon-greedy:\n\n"
+                             "Q(S, A) <- Q(S, A) + alpha (R + gamma max_a Q(S', a) - Q(S, A)).");
+  def_value_agent<ExpectedSarsa>(
       m, "ExpectedSarsa",
       "Expected SARSA (Sutton & Barto 6.6) under its epsilon-greedy policy pi:\n\n"
       "Q(S, A) <- Q(S, A) + alpha (R + gamma sum_a pi(a | S') Q(S', a) - Q(S, A)).");
-  def_agent<SarsaLambda>(m, "SarsaLambda",
-                         "SARSA(lambda), tabular and epsilon-greedy (Sutton & Barto 12.7); SARSA "
-                         "where trace_decay is\n"
-                         "0. A motion is learned about once the next one has run.");
-  def_agent<DynaQ>(
+  def_value_agent<SarsaLambda>(
+      m, "SarsaLambda",
+      "SARSA(lambda), tabular and epsilon-greedy (Sutton & Barto 12.7); SARSA "
+      "where trace_decay is\n"
+      "0. A motion is learned about once the next one has run.");
+  def_value_agent<DynaQ>(
       m, "DynaQ",
       "Tabular Dyna-Q (Sutton & Barto 8.2), epsilon-greedy: after each step of Q-learning,\n"
       "planning_steps more from what came of each motion when it was last tried. With kappa > 0\n"
       "Dyna-Q+ (8.3); then gamma should be below 1.");
-  def_agent<PrioritizedSweeping>(
+  def_value_agent<PrioritizedSweeping>(
       m, "PrioritizedSweeping",
       "Prioritized sweeping for a deterministic world (Moore & Atkeson 1993, as in Sutton & Barto\n"
       "8.4), epsilon-greedy: after each step at most planning_steps updates of Q-learning from "
@@ -59,12 +60,12 @@ void bind_value_agents(py::module_& m) {
             return self.updates();
           },
           "How many updates there have been.");
-  def_agent<LrtaStar>(
+  def_value_agent<LrtaStar>(
       m, "LrtaStar",
       "Learning real-time A* (Korf 1990): the motion of the least f(s, a) = cost + h(s'), of what\n"
       "each led to when it was last tried, and h(s) <- min_a f(s, a). h is first the estimate of\n"
       "the cost to go. A value is -f.");
-  def_agent<RMax>(
+  def_value_agent<RMax>(
       m, "RMax",
       "R-max (Brafman & Tennenholtz 2002): a motion is known in a situation once it was tried m\n"
       "times there; one that is not is worth its first value. The best plan under that is "

@@ -22,6 +22,7 @@ __all__: list[str] = [
     "BatchRows",
     "ChoiceTrace",
     "Circle",
+    "ConditioningExplanation",
     "DynaQ",
     "DynaQConfig",
     "Event",
@@ -39,6 +40,8 @@ __all__: list[str] = [
     "MoverWalk",
     "NoiseDef",
     "Observation",
+    "OperantConditioning",
+    "OperantConditioningConfig",
     "Outcome",
     "Polygon",
     "Polyline",
@@ -3228,6 +3231,197 @@ class ShortestPathAgent:
     def goal_radius(self) -> float:
         """
         Of the target [m].
+        """
+
+class ConditioningExplanation:
+    """
+    What devlearn.agents.OperantConditioning has come to in a situation. str() of it is a table.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def allowed(self) -> list[bool]:
+        """
+        N bools: whether each motion may be chosen.
+        """
+    @property
+    def entropy(self) -> float:
+        """
+        Of all N probabilities, -sum p log2 p [bits].
+        """
+    @property
+    def extinguished(self) -> list[int]:
+        """
+        N whole numbers: and was extinguished.
+        """
+    @property
+    def last_motion(self) -> int:
+        """
+        The one last tried; -1 for none.
+        """
+    @property
+    def last_reinforcement(self) -> int:
+        """
+        What came of it: 1 reinforced, -1 extinguished, 0 neither.
+        """
+    @property
+    def mean_reward(self) -> float:
+        """
+        Of the rewards that came; 0 before the first.
+        """
+    @property
+    def probability(self) -> list[float]:
+        """
+        N values: of each to be chosen; they sum to 1.
+        """
+    @property
+    def reinforced(self) -> list[int]:
+        """
+        N whole numbers: and was reinforced.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        The situation's id.
+        """
+    @property
+    def tried(self) -> list[int]:
+        """
+        N whole numbers: how often each was.
+        """
+
+class OperantConditioningConfig:
+    """
+    The settings of OperantConditioning.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    reward_step
+        a: step towards a motion that is reinforced; in (0, 1).
+    penalty_step
+        b: step away from a motion that is extinguished: as much as a in the scheme L_R-P, 0 in
+        L_R-I, between them in L_R-eP; in [0, 1).
+    reinforced_by
+        What reinforces: SMF above 0, or a reward above the mean of those that came in the situation
+        before; less extinguishes, and equal does neither; 'smf' or 'reward'.
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> OperantConditioningConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        reward_step: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        penalty_step: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        reinforced_by: str = "smf",
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> OperantConditioningConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def penalty_step(self) -> float:
+        """
+        b: step away from a motion that is extinguished: as much as a in the scheme L_R-P, 0 in L_R-I, between them in L_R-eP; in [0, 1).
+        """
+    @property
+    def reinforced_by(self) -> str:
+        """
+        What reinforces: SMF above 0, or a reward above the mean of those that came in the situation before; less extinguishes, and equal does neither; 'smf' or 'reward'.
+        """
+    @property
+    def reward_step(self) -> float:
+        """
+        a: step towards a motion that is reinforced; in (0, 1).
+        """
+
+class OperantConditioning:
+    """
+    Operant conditioning as a one-to-one mapping, a learning automaton of linear reward and
+    penalty in each situation (Narendra & Thathachar 1974): a probability for each of N motions.
+    Where motion i is reinforced, p_i grows by a (1 - p_i) and the others shrink by a p_j; where
+    it is extinguished, p_i shrinks by b p_i and the others grow by b (1 / (N - 1) - p_j).
+
+    In a trial: Trial(world, agent=OperantConditioning()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, a OperantConditioningConfig, also OperantConditioning.Config (None: the defaults); seed of its draws.
+    Raises InvalidValue.
+    """
+
+    Config = OperantConditioningConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, config: OperantConditioningConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def entropy(self, situation: typing.SupportsIndex) -> float | None:
+        """
+        Entropy of a situation's probabilities, -sum p log2 p, in [0, log2 N] bits; None for a situation never met. Raises InvalidValue.
+        """
+    def explain(
+        self,
+        situation: typing.SupportsIndex,
+        allowed: collections.abc.Sequence[bool] | numpy.typing.NDArray[numpy.bool_] | None = None,
+    ) -> ConditioningExplanation | None:
+        """
+        What it has come to in a situation, of all motions or of those allowed: a ConditioningExplanation; None for a situation never met. Changes nothing. Raises InvalidValue.
+        """
+    def mean_entropy(self) -> float | None:
+        """
+        The mean of that over all situations met; None before the first.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
+    def probability(
+        self, situation: typing.SupportsIndex, motion: typing.SupportsIndex
+    ) -> float | None:
+        """
+        The probability of a motion in a situation where all are allowed; None for a situation never met. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> OperantConditioningConfig:
+        """
+        Its settings.
         """
 
 class Task:

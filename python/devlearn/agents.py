@@ -1,5 +1,5 @@
-"""Agents of a trial that the paper's learner is measured against: textbook learners of values, and
-whoever knows the map and takes the shortest way.
+"""Agents of a trial that the paper's learner is measured against: textbook learners of values,
+operant conditioning as a one-to-one mapping, and whoever knows the map and takes the shortest way.
 
 from devlearn import Trial, World, agents
 
@@ -14,6 +14,8 @@ from ._core import (
     ExpectedSarsaConfig,
     LrtaStar,
     LrtaStarConfig,
+    OperantConditioning,
+    OperantConditioningConfig,
     PrioritizedSweeping,
     PrioritizedSweepingConfig,
     QLearning,
@@ -32,6 +34,8 @@ __all__ = [
     "ExpectedSarsaConfig",
     "LrtaStar",
     "LrtaStarConfig",
+    "OperantConditioning",
+    "OperantConditioningConfig",
     "PrioritizedSweeping",
     "PrioritizedSweepingConfig",
     "QLearning",

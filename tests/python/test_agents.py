@@ -694,7 +694,9 @@ def test_a_generator_goes_on_from_its_state():
 def test_the_guides_code_runs_and_its_agent_is_saved_as_it_stands(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     guide = (pathlib.Path(__file__).parents[2] / "docs" / "agents.md").read_text(encoding="utf-8")
-    agent, textbook, by_hand, long_run = re.findall(r"```python\n(.*?)```", guide, re.DOTALL)
+    agent, textbook, by_hand, conditioning, long_run = re.findall(
+        r"```python\n(.*?)```", guide, re.DOTALL
+    )
     names = {}
     exec(long_run, names)
     assert 0 < names["records"][0].rounds["steps"][0] < 10**9
@@ -703,6 +705,8 @@ def test_the_guides_code_runs_and_its_agent_is_saved_as_it_stands(tmp_path, monk
     assert (again.agent.values == trial.agent.values).all()
     assert differences(again.run(200), trial.run(200)) == []
     exec(textbook, names)
+    exec(conditioning, names)
+    assert names["agent"].mean_entropy() < np.log2(5)
     assert names["agent"].value(int(names["paths"].situation[0]), 2) < 0.0
     exec(by_hand, names)
     assert names["agent"].value(19, 1) == pytest.approx(-1.0)

@@ -120,8 +120,8 @@ ODD = [
 
 # What is only had from a call has no constructor, and says so.
 RESULTS = {
-    "AdaptiveExplanation", "AdaptiveMemory", "BatchRows", "ChoiceTrace", "Explanation", "MemoryUse",
-    "Recollection", "ShortestPath", "SituationMemory", "Step", "Task",
+    "AdaptiveExplanation", "AdaptiveMemory", "BatchRows", "ChoiceTrace", "ConditioningExplanation",
+    "Explanation", "MemoryUse", "Recollection", "ShortestPath", "SituationMemory", "Step", "Task",
 }  # fmt: skip
 
 

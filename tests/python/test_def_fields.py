@@ -30,6 +30,7 @@ CONFIGS = [
     LearnerConfig, AdaptiveConfig, StateEvaluation, RobotDef, TrialConfig, agents.QLearning.Config,
     agents.ExpectedSarsa.Config, agents.SarsaLambda.Config, agents.DynaQ.Config,
     agents.PrioritizedSweeping.Config, agents.LrtaStar.Config, agents.RMax.Config,
+    agents.OperantConditioning.Config,
     BatchConfig,
 ]  # fmt: skip
 each_config = pytest.mark.parametrize("kind", CONFIGS)
@@ -151,6 +152,11 @@ EXPECTED = {
         "theta": ("theta", NO, "in [1e-09, 1e+09]", 1e-6),
         "least_value": (NO, NO, "in [-1e+06, 0]", -1000.0),
     },
+    agents.OperantConditioning.Config: {  # Narendra & Thathachar 1974
+        "reward_step": ("a", NO, "in (0, 1)", 0.1),
+        "penalty_step": ("b", NO, "in [0, 1)", 0.01),
+        "reinforced_by": (NO, NO, "'smf' or 'reward'", "smf"),
+    },
     BatchConfig: {
         "reward": (NO, NO, "'shaped' or 'cost' or 'smf' or 'sparse'", "shaped"),
         "step_limit": (NO, NO, WHOLE.format(1, 2**40), 10_000),
@@ -197,7 +203,7 @@ def other(value):
         names = {
             "abandon": "weaken", "retry": "wander", "geometric": "sonar", "constant": "estimate",
             "estimate": "constant", "none": "sef", "accumulating": "replacing", "shaped": "cost",
-            "next_step": "same_step",
+            "next_step": "same_step", "smf": "reward",
         }  # fmt: skip
         return names[value]
     if hasattr(value, "fields"):

@@ -1,4 +1,5 @@
-"""Textbook learners of values in a trial. What they learn is tested in C++, against the books."""
+"""Textbook learners of values, or of probabilities, in a trial. What they learn is tested in C++,
+against the books."""
 
 import copy
 import gc
@@ -19,7 +20,11 @@ KINDS = {
     "prioritized_sweeping": agents.PrioritizedSweeping,
     "lrta_star": agents.LrtaStar,
     "r_max": agents.RMax,
+    "operant_conditioning": agents.OperantConditioning,
 }
+each_value_agent = pytest.mark.parametrize(
+    "agent", [agent for agent in KINDS.values() if hasattr(agent, "value")]
+)
 each_agent = pytest.mark.parametrize("agent", KINDS.values(), ids=KINDS)
 EMPTY = World.load("empty")
 
@@ -135,7 +140,7 @@ def test_what_is_saved_loaded_pickled_or_copied_goes_on_equal_to_the_bit(agent, 
         assert pickle.dumps(other.agent) == pickle.dumps(trial.agent)
 
 
-@each_agent
+@each_value_agent
 def test_an_agent_goes_from_trial_to_trial_with_what_it_learned(agent):
     learner = agent(seed=3)
     trial = Trial(EMPTY, agent=learner)
@@ -176,7 +181,7 @@ def test_the_shortest_path_agent_takes_the_shortest_way_and_is_saved_with_it(tmp
 # --- settings and values -------------------------------------------------------------------------
 
 
-@each_agent
+@each_value_agent
 def test_settings_are_those_given_and_the_defaults_otherwise(agent):
     assert agent().config == agent.Config()
     changed = agent.Config(first_value="estimate", initial_value=-7.0)
@@ -190,7 +195,7 @@ def test_settings_are_those_given_and_the_defaults_otherwise(agent):
         agent(seed=-1)
 
 
-@each_agent
+@each_value_agent
 def test_a_value_is_a_number_where_a_situation_was_met_and_none_elsewhere(agent):
     learner = agent()
     assert learner.value(760, 4) is None
@@ -226,6 +231,60 @@ def test_what_r_max_knows_was_tried_m_times_and_updates_are_counted():
     sweeping = agents.PrioritizedSweeping(agents.PrioritizedSweeping.Config(planning_steps=3))
     Trial(EMPTY, agent=sweeping).free_learning(100)
     assert 100 <= sweeping.updates <= 300
+
+
+# --- operant conditioning ------------------------------------------------------------------------
+
+
+def test_probabilities_sum_to_one_entropy_falls_and_an_explanation_counts_what_came():
+    config = agents.OperantConditioning.Config(reward_step=0.2, penalty_step=0.05)
+    agent = agents.OperantConditioning(config, seed=1)
+    assert agent.mean_entropy() is None
+    assert agent.entropy(0) is None
+    assert agent.probability(0, 0) is None
+    assert agent.explain(0) is None
+    record = Trial(EMPTY, agent=agent).free_learning(3000)
+    assert 0.0 < agent.mean_entropy() < np.log2(5)
+    entropies = []
+    for situation in np.unique(np.append(record.situation, Trial(EMPTY).situation)).tolist():
+        here = record.situation == situation
+        why = agent.explain(situation)
+        assert why.probability == pytest.approx([agent.probability(situation, m) for m in range(5)])
+        assert sum(why.probability) == pytest.approx(1.0)
+        smf = record.smf[here]
+        motions = record.motion[here]
+        for name, mask in (
+            ("tried", here[here]),
+            ("reinforced", smf > 0),
+            ("extinguished", smf < 0),
+        ):
+            assert getattr(why, name) == np.bincount(motions[mask], minlength=5).tolist()
+        entropies.append(agent.entropy(situation))
+        assert entropies[-1] == why.entropy
+    assert agent.mean_entropy() <= np.log2(5)
+    assert str(why).startswith(f"situation {why.situation}: entropy ")
+    assert repr(why).startswith("<devlearn.ConditioningExplanation: situation ")
+    assert pickle.loads(pickle.dumps(why)) == why
+    masked = agent.explain(why.situation, [True, False, False, True, False])
+    assert masked.probability[1:3] == [0.0, 0.0]
+    assert sum(masked.probability) == pytest.approx(1.0)
+    refused(lambda: agent.explain(why.situation, [True]), "allowed")
+    refused(lambda: agent.entropy(-1), "situation")
+
+
+@pytest.mark.parametrize("reinforced_by", ["smf", "reward"])
+def test_operant_conditioning_lives_in_the_paper_s_world_and_is_resumed_to_the_bit(
+    tmp_path, reinforced_by
+):
+    config = agents.OperantConditioning.Config(penalty_step=0.1, reinforced_by=reinforced_by)
+    trial = Trial(World.load("paper"), agent=agents.OperantConditioning(config, seed=5))
+    trial.free_learning(2000)
+    trial.path_learning(rounds=2, step_limit=500)
+    trial.save(tmp_path / "trial.safetensors")
+    again = Trial.load(tmp_path / "trial.safetensors")
+    assert again.agent.config == config
+    assert differences(again.free_learning(500), trial.free_learning(500)) == []
+    assert pickle.dumps(again.agent) == pickle.dumps(trial.agent)
 
 
 # --- in a trial ----------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "devlearn/expected_sarsa.hpp"
 #include "devlearn/learner_agent.hpp"
 #include "devlearn/lrta_star.hpp"
+#include "devlearn/operant_conditioning.hpp"
 #include "devlearn/prioritized_sweeping.hpp"
 #include "devlearn/q_learning.hpp"
 #include "devlearn/r_max.hpp"
@@ -35,7 +36,7 @@ std::shared_ptr<Agent> one_of(const AgentState& state, const std::string& source
 
 std::shared_ptr<Agent> make_agent(const AgentState& state, const std::string& source) {
   return one_of<LearnerAgent, AdaptiveAgent, RandomAgent, QLearning, ExpectedSarsa, SarsaLambda,
-                DynaQ, PrioritizedSweeping, LrtaStar, RMax>(state, source);
+                DynaQ, PrioritizedSweeping, LrtaStar, RMax, OperantConditioning>(state, source);
 }
 
 }  // namespace devlearn

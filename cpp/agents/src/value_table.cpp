@@ -67,9 +67,7 @@ Choice ValueTable::choose(Row row, double epsilon) {
   std::uint32_t draw = candidates == 1 ? 0 : random_.index(candidates);
   int motion = 0;
   while (!candidate(motion) || draw-- > 0) ++motion;
-  waiting_row_ = row;
-  waiting_motion_ = motion;
-  return {motion, Kind::kUnstated};
+  return wait(row, motion);
 }
 
 Transition ValueTable::observe(const Outcome& outcome) {

@@ -59,6 +59,11 @@ SEARCHED: Mapping[str, Mapping[str, Sequence[Any]]] = {
         "theta": (1e-6, 1e-3, 0.1, 1.0),
         "least_value": (-1000.0, -300.0),
     },
+    "OperantConditioning": {
+        "reward_step": (0.01, 0.03, 0.1, 0.2, 0.3, 0.5),
+        "penalty_step": (0.0, 0.001, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5),
+        "reinforced_by": ("smf", "reward"),
+    },
 }
 
 
@@ -78,7 +83,7 @@ def drawn(agent: str, count: int = TRIES) -> list[dict[str, Any]]:
     ]
     while len(tried) < count:
         these = {n: choices[random.index(len(choices))] for n, choices in SEARCHED[agent].items()}
-        if these["first_value"] == "estimate":
+        if these.get("first_value") == "estimate":
             these.pop("initial_value", None)
         if these not in tried:
             tried.append(these)

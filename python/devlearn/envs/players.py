@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -16,6 +16,7 @@ from .._core import (
     Learner,
     LrtaStar,
     Observation,
+    OperantConditioning,
     Outcome,
     PrioritizedSweeping,
     QLearning,
@@ -47,10 +48,6 @@ class _Agent(Protocol):
     def observe(self, outcome: Outcome) -> None: ...
     def cancel(self) -> None: ...
     def end_round(self, arrived: bool) -> None: ...
-
-
-class _ValueAgent(_Agent, Protocol):
-    def value(self, situation: int, motion: int) -> float | None: ...
 
 
 def _allowed(seen: Observation) -> Sequence[int]:
@@ -218,16 +215,16 @@ class _OfAgent(Player):
 
 
 class OfValues(_OfAgent, Knowing):
-    """A textbook learner of values: it learns from the cost."""
+    """A textbook learner of values, or of probabilities: ``value(situation, motion)``."""
 
-    def __init__(self, agent: _ValueAgent) -> None:
+    def __init__(self, agent: _Agent, value: Callable[[int, int], float | None]) -> None:
         super().__init__(agent)
-        self._values = agent
+        self._value = value
 
     def best(self, seen: Observation) -> Sequence[int]:
         """Those of the highest value."""
         motions = _allowed(seen)
-        values = [self._values.value(seen.situation, motion) for motion in motions]
+        values = [self._value(seen.situation, motion) for motion in motions]
         known = [value for value in values if value is not None]
         highest = max(known, default=None)
         return [motion for motion, value in zip(motions, values) if value == highest]
@@ -291,7 +288,9 @@ def player_of(learner: object) -> Player:
     if isinstance(learner, AdaptiveLearner) and not own_way:
         return OfAdaptive(learner)
     if isinstance(learner, _VALUE_AGENTS):
-        return OfValues(learner)
+        return OfValues(learner, learner.value)
+    if isinstance(learner, OperantConditioning):
+        return OfValues(learner, learner.probability)
     if isinstance(learner, RandomAgent):
         return OfRandom(learner)
     methods = (getattr(learner, name, None) for name in ("choose", "observe"))

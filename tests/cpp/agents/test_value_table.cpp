@@ -1,4 +1,4 @@
-// Laws of every agent that learns values.
+// Laws of every agent that learns values, or probabilities, of motions in a table.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,6 +20,7 @@
 #include "devlearn/error.hpp"
 #include "devlearn/expected_sarsa.hpp"
 #include "devlearn/lrta_star.hpp"
+#include "devlearn/operant_conditioning.hpp"
 #include "devlearn/prioritized_sweeping.hpp"
 #include "devlearn/q_learning.hpp"
 #include "devlearn/r_max.hpp"
@@ -27,10 +28,21 @@
 
 using namespace devlearn;
 
-#define VALUE_AGENTS \
-  QLearning, ExpectedSarsa, SarsaLambda, DynaQ, PrioritizedSweeping, LrtaStar, RMax
+#define VALUE_AGENTS                                                                 \
+  QLearning, ExpectedSarsa, SarsaLambda, DynaQ, PrioritizedSweeping, LrtaStar, RMax, \
+      OperantConditioning
 
 namespace {
+
+// What was learned of a motion.
+template <class A>
+std::optional<double> value_of(const A& agent, SituationId situation, int motion) {
+  return agent.value(situation, motion);
+}
+std::optional<double> value_of(const OperantConditioning& agent, SituationId situation,
+                               int motion) {
+  return agent.probability(situation, motion);
+}
 
 // A life in a small maze, with motions ruled out now and then, and rounds broken off.
 class Life {
@@ -140,7 +152,7 @@ TEST_CASE_TEMPLATE("a history and what was learned are the same to the bit on ev
   for (const int motion : Life(1).run(agent, 2000)) add(static_cast<std::uint64_t>(motion));
   for (int cell = 0; cell < 20; ++cell) {
     for (int motion = 0; motion < 4; ++motion) {
-      const double value = agent.value(cell, motion).value_or(0.0);
+      const double value = value_of(agent, cell, motion).value_or(0.0);
       std::uint64_t bits = 0;
       std::memcpy(&bits, &value, sizeof bits);
       add(bits);
@@ -153,7 +165,8 @@ TEST_CASE_TEMPLATE("a history and what was learned are the same to the bit on ev
       {DynaQ::kKind, 0x9156ea7652749624U},
       {PrioritizedSweeping::kKind, 0x1768064541a4a3a5U},
       {LrtaStar::kKind, 0x4345f55d48e0a6f9U},
-      {RMax::kKind, 0xec3ea2d76c0e6311U}};
+      {RMax::kKind, 0xec3ea2d76c0e6311U},
+      {OperantConditioning::kKind, 0xb8d0982609846746U}};
   CHECK(hash == expected.at(A::kKind));
 }
 
@@ -233,9 +246,9 @@ TEST_CASE_TEMPLATE("a call that is refused changes nothing", A, VALUE_AGENTS) {
   refused(observing([](Outcome& o) { o.cost = kInfinite; }), "cost", "inf");
   refused(observing([](Outcome& o) { o.sef = kNan; }), "sef", "nan");
   refused(observing([](Outcome& o) { o.estimate = kInfinite; }), "estimate", "inf");
-  refused([&] { agent.value(-1, 0); }, "situation", "-1");
-  refused([&] { agent.value(0, 4); }, "motion", "4");
-  refused([&] { agent.value(0, -1); }, "motion", "-1");
+  refused([&] { value_of(agent, -1, 0); }, "situation", "-1");
+  refused([&] { value_of(agent, 0, 4); }, "motion", "4");
+  refused([&] { value_of(agent, 0, -1); }, "motion", "-1");
 }
 
 TEST_CASE_TEMPLATE("of a choice that is cancelled nothing is learned", A, VALUE_AGENTS) {
@@ -246,7 +259,7 @@ TEST_CASE_TEMPLATE("of a choice that is cancelled nothing is learned", A, VALUE_
   std::vector<std::optional<double>> before, after;
   const auto values = [&](auto& into) {
     for (int cell = 0; cell < 20; ++cell) {
-      for (int motion = 0; motion < 4; ++motion) into.push_back(agent.value(cell, motion));
+      for (int motion = 0; motion < 4; ++motion) into.push_back(value_of(agent, cell, motion));
     }
   };
   values(before);
@@ -273,7 +286,7 @@ TEST_CASE_TEMPLATE("what diverges stays finite, and can be saved", A, VALUE_AGEN
     seen.estimate = 1e308;
     seen.sef = -1e308;
   }
-  CHECK(std::isfinite(*agent.value(0, 0)));
+  CHECK(std::isfinite(*value_of(agent, 0, 0)));
   CHECK(equal(*make_agent(*agent.state())->state(), *agent.state()));
 }
 

@@ -27,6 +27,12 @@ auto members_of(const Def& def) {
   if constexpr (n == 2) {
     const auto& [a, b] = def;
     return std::tuple(&a, &b);
+  } else if constexpr (n == 3) {
+    const auto& [a, b, c] = def;
+    return std::tuple(&a, &b, &c);
+  } else if constexpr (n == 4) {
+    const auto& [a, b, c, d] = def;
+    return std::tuple(&a, &b, &c, &d);
   } else if constexpr (n == 5) {
     const auto& [a, b, c, d, e] = def;
     return std::tuple(&a, &b, &c, &d, &e);
@@ -175,7 +181,9 @@ void check_every_bound() {
     } else if constexpr (std::is_same_v<Range, List>) {
       const auto most = static_cast<std::size_t>(field.range.count.high);
       try_value(T(static_cast<std::size_t>(field.range.count.low)), true);
-      try_value(T(static_cast<std::size_t>(field.range.count.low - 1)), false);
+      if (field.range.count.low > 0) {
+        try_value(T(static_cast<std::size_t>(field.range.count.low - 1)), false);
+      }
       try_value(T(most), true);
       try_value(T(most + 1), false);
       at_the_bounds(field.range.each, [&](double value, bool allowed) {

@@ -70,6 +70,7 @@ VALUE_AGENTS = [
     agents.PrioritizedSweeping,
     agents.LrtaStar,
     agents.RMax,
+    agents.OperantConditioning,
 ]
 LEARNERS = {
     "paper": paper,

@@ -29,6 +29,7 @@ LEARNERS = {
     "Learner": (lambda: Learner(LearnerConfig(), SEED), "smf"),
     "AdaptiveLearner": (lambda: AdaptiveLearner(AdaptiveConfig(), SEED), "cost"),
     "RandomAgent": (lambda: RandomAgent(SEED), "cost"),
+    "OperantConditioning": (lambda: agents.OperantConditioning(seed=SEED), "smf"),
     **{kind.__name__: (lambda kind=kind: kind(seed=SEED), "cost") for kind in VALUE_LEARNERS},
 }
 

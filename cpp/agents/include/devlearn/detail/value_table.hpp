@@ -62,6 +62,12 @@ class ValueTable {
   Choice choose(const Observation& observation, double epsilon) {
     return choose(meet(observation), epsilon);
   }
+  /// A choice made otherwise, of an allowed motion; it waits, too.
+  Choice wait(Row row, int motion) noexcept {
+    waiting_row_ = row;
+    waiting_motion_ = motion;
+    return {motion, Kind::kUnstated};
+  }
   /// What came of the choice that waited. Throws InvalidValue where none waits, or for what no
   /// outcome may hold.
   Transition observe(const Outcome& outcome);
