@@ -7,6 +7,7 @@
 
 #include "bindings.hpp"
 #include "devlearn/agent.hpp"
+#include "devlearn/appraisal.hpp"
 #include "devlearn/dyna_q.hpp"
 #include "devlearn/expected_sarsa.hpp"
 #include "devlearn/lrta_star.hpp"
@@ -26,7 +27,7 @@ struct Agents {};
 /// devlearn's agents that are the same object in Python and in C++.
 using OwnAgents =
     Agents<RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, DynaQ, PrioritizedSweeping, LrtaStar,
-           RMax, OperantConditioning, ShortestPathAgent>;
+           RMax, OperantConditioning, Appraisal, ShortestPathAgent>;
 
 /// The class of one of them, without its module; null for any other.
 const char* own_name(const Agent& agent);

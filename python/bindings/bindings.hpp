@@ -44,6 +44,8 @@ void bind_agents(py::module_& m);
 void bind_value_agents(py::module_& m);
 void bind_operant_conditioning(py::module_& m);
 void bind_tasks(py::module_& m);
+void bind_appraisal(py::module_& m);
+void bind_foraging(py::module_& m);
 void bind_trial(py::module_& m);
 void bind_trial_snapshot(py::module_& m);
 void bind_batch(py::module_& m);

@@ -69,6 +69,8 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_value_agents(m);
   devlearn::python::bind_operant_conditioning(m);
   devlearn::python::bind_tasks(m);
+  devlearn::python::bind_appraisal(m);
+  devlearn::python::bind_foraging(m);
   devlearn::python::bind_trial(m);
   devlearn::python::bind_trial_snapshot(m);
   devlearn::python::bind_batch(m);

@@ -17,6 +17,9 @@ __all__: list[str] = [
     "AdaptiveExplanation",
     "AdaptiveLearner",
     "AdaptiveMemory",
+    "Appraisal",
+    "AppraisalConfig",
+    "AppraisalExplanation",
     "Batch",
     "BatchConfig",
     "BatchRows",
@@ -29,6 +32,8 @@ __all__: list[str] = [
     "ExpectedSarsa",
     "ExpectedSarsaConfig",
     "Explanation",
+    "Foraging",
+    "ForagingConfig",
     "Kind",
     "Learner",
     "LearnerConfig",
@@ -3453,6 +3458,373 @@ class Task:
     def succeeded(self) -> bool:
         """
         Whether the episode that has ended ended well.
+        """
+
+class AppraisalConfig:
+    """
+    The settings of Appraisal.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    novelty
+        phi_n: weight of novelty in what is learned from; in [-1, 1].
+    motivation
+        phi_m: weight of motivation, which is goal relevance; in [-1, 1].
+    control
+        phi_c: weight of control; in [-1, 1].
+    valence
+        phi_v: weight of valence; in [-1, 1].
+    external
+        phi_e: weight of the reward from outside; in [-1, 1].
+    alpha
+        alpha: step size; in (0, 1].
+    gamma
+        gamma: discount rate; in [0, 1].
+    epsilon
+        epsilon: probability of a random motion instead of a greedy one, at first; in [0, 1].
+    epsilon_decay
+        What epsilon is divided by after each step; in [1, 2].
+    novelty_decay
+        lambda: what novelty is divided by at each visit; in [1, 2].
+    planning_steps
+        n: updates after each step, at most; as many again of the values of external reward; a whole
+        number in [0, 1000000].
+    theta
+        theta: what would change a value by no more than this is not queued; in [0, 1e+09].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> AppraisalConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        novelty: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        motivation: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        control: typing.SupportsFloat | typing.SupportsIndex = -0.3,
+        valence: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        external: typing.SupportsFloat | typing.SupportsIndex = 0.7,
+        alpha: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        gamma: typing.SupportsFloat | typing.SupportsIndex = 0.9,
+        epsilon: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        epsilon_decay: typing.SupportsFloat | typing.SupportsIndex = 1.0001,
+        novelty_decay: typing.SupportsFloat | typing.SupportsIndex = 1.001,
+        planning_steps: typing.SupportsIndex = 10,
+        theta: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> AppraisalConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        alpha: step size; in (0, 1].
+        """
+    @property
+    def control(self) -> float:
+        """
+        phi_c: weight of control; in [-1, 1].
+        """
+    @property
+    def epsilon(self) -> float:
+        """
+        epsilon: probability of a random motion instead of a greedy one, at first; in [0, 1].
+        """
+    @property
+    def epsilon_decay(self) -> float:
+        """
+        What epsilon is divided by after each step; in [1, 2].
+        """
+    @property
+    def external(self) -> float:
+        """
+        phi_e: weight of the reward from outside; in [-1, 1].
+        """
+    @property
+    def gamma(self) -> float:
+        """
+        gamma: discount rate; in [0, 1].
+        """
+    @property
+    def motivation(self) -> float:
+        """
+        phi_m: weight of motivation, which is goal relevance; in [-1, 1].
+        """
+    @property
+    def novelty(self) -> float:
+        """
+        phi_n: weight of novelty in what is learned from; in [-1, 1].
+        """
+    @property
+    def novelty_decay(self) -> float:
+        """
+        lambda: what novelty is divided by at each visit; in [1, 2].
+        """
+    @property
+    def planning_steps(self) -> int:
+        """
+        n: updates after each step, at most; as many again of the values of external reward; a whole number in [0, 1000000].
+        """
+    @property
+    def theta(self) -> float:
+        """
+        theta: what would change a value by no more than this is not queued; in [0, 1e+09].
+        """
+    @property
+    def valence(self) -> float:
+        """
+        phi_v: weight of valence; in [-1, 1].
+        """
+
+class Appraisal:
+    """
+    Learning by appraising, as in Sequeira, Melo & Paiva (2011; 2014): rewards come from within.
+    Each step is appraised by its history, for novelty, motivation, control and valence, each in
+    [0, 1]; Q is learned of their sum with the reward from outside, weighted, by prioritized
+    sweeping. Motions are chosen by Q, epsilon-greedy, with an epsilon that falls.
+
+    In a trial: Trial(world, agent=Appraisal()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, a AppraisalConfig, also Appraisal.Config (None: the defaults); seed of its draws.
+    Raises InvalidValue.
+    """
+
+    Config = AppraisalConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, config: AppraisalConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def explain(self, situation: typing.SupportsIndex) -> AppraisalExplanation | None:
+        """
+        How a situation is appraised, an AppraisalExplanation; None for one never met. Draws and
+        changes nothing. Raises InvalidValue.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
+    def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
+        """
+        The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> AppraisalConfig:
+        """
+        Its settings.
+        """
+    @property
+    def epsilon(self) -> float:
+        """
+        The probability of a random motion, at present.
+        """
+
+class AppraisalExplanation:
+    """
+    How a situation is appraised at present, for each of its N motions. The reward of a motion is
+    the sum of its four appraisals and of the mean reward from outside, weighted by the settings.
+    str() of it is a table.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def allowed(self) -> list[bool]:
+        """
+        N bools: whether each was allowed at the last choice here.
+        """
+    @property
+    def config(self) -> AppraisalConfig:
+        """
+        The AppraisalConfig: the weights among its settings.
+        """
+    @property
+    def control(self) -> list[float]:
+        """
+        N values, in [0, 1].
+        """
+    @property
+    def epsilon(self) -> float:
+        """
+        The probability of a random motion, at present.
+        """
+    @property
+    def external(self) -> list[float]:
+        """
+        N values: mean reward from outside; 0 for one never tried.
+        """
+    @property
+    def external_value(self) -> list[float]:
+        """
+        N values: Q of external rewards alone.
+        """
+    @property
+    def goal(self) -> int:
+        """
+        The situation of the highest external value; -1: none as yet.
+        """
+    @property
+    def goal_distance(self) -> int:
+        """
+        Motions from here to the goal, by all transitions seen; -1: no way is known.
+        """
+    @property
+    def motivation(self) -> float:
+        """
+        In [0, 1], the same for all motions.
+        """
+    @property
+    def novelty(self) -> list[float]:
+        """
+        N values, in [0, 1].
+        """
+    @property
+    def reward(self) -> list[float]:
+        """
+        N values: what they come to.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        The situation's id.
+        """
+    @property
+    def valence(self) -> list[float]:
+        """
+        N values, in [0, 1].
+        """
+    @property
+    def value(self) -> list[float]:
+        """
+        N values: Q, by which motions are chosen.
+        """
+    @property
+    def visits(self) -> list[int]:
+        """
+        N values: how often each was tried.
+        """
+
+class ForagingConfig:
+    """
+    The settings of Foraging.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    scenario
+        Which scenario; 'moving_preys' or 'persistence' or 'prey_season' or 'poisoned_season' or
+        'hunger_thirst' or 'lairs'.
+    season
+        Steps of a season, where there are some; a whole number in [1, 1000000000].
+    most_pushes
+        Pushes that the fence of persistence takes, at most; a whole number in [0, 1000000].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> ForagingConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        scenario: str = "moving_preys",
+        season: typing.SupportsIndex = 5000,
+        most_pushes: typing.SupportsIndex = 30,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> ForagingConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def most_pushes(self) -> int:
+        """
+        Pushes that the fence of persistence takes, at most; a whole number in [0, 1000000].
+        """
+    @property
+    def scenario(self) -> str:
+        """
+        Which scenario; 'moving_preys' or 'persistence' or 'prey_season' or 'poisoned_season' or 'hunger_thirst' or 'lairs'.
+        """
+    @property
+    def season(self) -> int:
+        """
+        Steps of a season, where there are some; a whole number in [1, 1000000000].
+        """
+
+class Foraging(Task):
+    """
+    The foraging scenarios of Sequeira, Melo & Paiva (2011; 2014), as in their published program: a
+    fox in a small grid world, which sees where it is and what is there, and nothing else. Motions:
+    up, down, left, right, and among lairs eat and open; against a wall or the fence it stays. A
+    situation is 16 times the cell, numbered row by row, walls too, and what is there. The event of
+    a step is 0 if a prey was eaten. An episode has no end of its own.
+
+    Parameters: config, a ForagingConfig, also Foraging.Config (None: the defaults). Raises InvalidValue.
+    """
+
+    Config = ForagingConfig
+    def __init__(self, config: ForagingConfig | None = None) -> None: ...
+    def __repr__(self) -> str: ...
+    def drawn(self) -> str:
+        """
+        The grid, a line a row: # a wall, F the fox, h a hare, r a rabbit, w water, = the fence, o a
+        lair that is closed, O one with its rabbit out, . one that is empty. Raises InvalidValue where no
+        episode is under way.
+        """
+    @property
+    def config(self) -> ForagingConfig:
+        """
+        Its settings.
         """
 
 class NoiseDef:

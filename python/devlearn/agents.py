@@ -8,6 +8,9 @@ paths = Trial(World.load("empty"), agent=agent).path_learning(rounds=50)
 """
 
 from ._core import (
+    Appraisal,
+    AppraisalConfig,
+    AppraisalExplanation,
     DynaQ,
     DynaQConfig,
     ExpectedSarsa,
@@ -28,6 +31,9 @@ from ._core import (
 )
 
 __all__ = [
+    "Appraisal",
+    "AppraisalConfig",
+    "AppraisalExplanation",
     "DynaQ",
     "DynaQConfig",
     "ExpectedSarsa",

@@ -3,7 +3,7 @@
 An agent lives through episodes of a task by run, or step by step.
 """
 
-from ._core import Task
+from ._core import Foraging, ForagingConfig, Task
 from ._core import run_episodes as run
 
-__all__ = ["Task", "run"]
+__all__ = ["Foraging", "ForagingConfig", "Task", "run"]

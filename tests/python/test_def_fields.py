@@ -22,6 +22,7 @@ from devlearn import (
     TrialConfig,
     _core,
     agents,
+    tasks,
 )
 from devlearn.record import POSE_COLUMNS, STEP_COLUMNS
 
@@ -30,7 +31,7 @@ CONFIGS = [
     LearnerConfig, AdaptiveConfig, StateEvaluation, RobotDef, TrialConfig, agents.QLearning.Config,
     agents.ExpectedSarsa.Config, agents.SarsaLambda.Config, agents.DynaQ.Config,
     agents.PrioritizedSweeping.Config, agents.LrtaStar.Config, agents.RMax.Config,
-    agents.OperantConditioning.Config,
+    agents.OperantConditioning.Config, agents.Appraisal.Config, tasks.Foraging.Config,
     BatchConfig,
 ]  # fmt: skip
 each_config = pytest.mark.parametrize("kind", CONFIGS)
@@ -157,6 +158,31 @@ EXPECTED = {
         "penalty_step": ("b", NO, "in [0, 1)", 0.01),
         "reinforced_by": (NO, NO, "'smf' or 'reward'", "smf"),
     },
+    agents.Appraisal.Config: {
+        "novelty": ("phi_n", NO, "in [-1, 1]", 0.0),
+        "motivation": ("phi_m", NO, "in [-1, 1]", 0.0),
+        "control": ("phi_c", NO, "in [-1, 1]", -0.3),
+        "valence": ("phi_v", NO, "in [-1, 1]", 0.0),
+        "external": ("phi_e", NO, "in [-1, 1]", 0.7),
+        "alpha": ("alpha", NO, "in (0, 1]", 0.3),
+        "gamma": ("gamma", NO, "in [0, 1]", 0.9),
+        "epsilon": ("epsilon", NO, "in [0, 1]", 1.0),
+        "epsilon_decay": (NO, NO, "in [1, 2]", 1.0001),
+        "novelty_decay": ("lambda", NO, "in [1, 2]", 1.001),
+        "planning_steps": ("n", NO, WHOLE.format(0, 1000000), 10),
+        "theta": ("theta", NO, "in [0, 1e+09]", 1e-4),
+    },
+    tasks.Foraging.Config: {
+        "scenario": (
+            NO,
+            NO,
+            "'moving_preys' or 'persistence' or 'prey_season' or 'poisoned_season' or "
+            "'hunger_thirst' or 'lairs'",
+            "moving_preys",
+        ),
+        "season": (NO, NO, WHOLE.format(1, 1000000000), 5000),
+        "most_pushes": (NO, NO, WHOLE.format(0, 1000000), 30),
+    },
     BatchConfig: {
         "reward": (NO, NO, "'shaped' or 'cost' or 'smf' or 'sparse'", "shaped"),
         "step_limit": (NO, NO, WHOLE.format(1, 2**40), 10_000),
@@ -203,7 +229,7 @@ def other(value):
         names = {
             "abandon": "weaken", "retry": "wander", "geometric": "sonar", "constant": "estimate",
             "estimate": "constant", "none": "sef", "accumulating": "replacing", "shaped": "cost",
-            "next_step": "same_step", "smf": "reward",
+            "next_step": "same_step", "smf": "reward", "moving_preys": "lairs",
         }  # fmt: skip
         return names[value]
     if hasattr(value, "fields"):
@@ -227,7 +253,7 @@ def test_every_field_is_compared_replaced_and_survives_dict_json_repr_pickle_and
             kind().replace(**fields),
             kind.from_dict(fields),
             kind.from_dict(json.loads(json.dumps(changed.to_dict()))),
-            eval(repr(changed), {**vars(devlearn), **vars(agents)}),
+            eval(repr(changed), {**vars(devlearn), **vars(agents), **vars(tasks)}),
             pickle.loads(pickle.dumps(changed)),
             copy.deepcopy(changed),
         ):

@@ -1,6 +1,7 @@
 #include "devlearn/agent.hpp"
 
 #include "devlearn/adaptive_agent.hpp"
+#include "devlearn/appraisal.hpp"
 #include "devlearn/dyna_q.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/expected_sarsa.hpp"
@@ -36,7 +37,8 @@ std::shared_ptr<Agent> one_of(const AgentState& state, const std::string& source
 
 std::shared_ptr<Agent> make_agent(const AgentState& state, const std::string& source) {
   return one_of<LearnerAgent, AdaptiveAgent, RandomAgent, QLearning, ExpectedSarsa, SarsaLambda,
-                DynaQ, PrioritizedSweeping, LrtaStar, RMax, OperantConditioning>(state, source);
+                DynaQ, PrioritizedSweeping, LrtaStar, RMax, OperantConditioning, Appraisal>(state,
+                                                                                            source);
 }
 
 }  // namespace devlearn

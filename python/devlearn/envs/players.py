@@ -11,6 +11,7 @@ import numpy as np
 from .._calls import shown
 from .._core import (
     AdaptiveLearner,
+    Appraisal,
     DynaQ,
     ExpectedSarsa,
     Learner,
@@ -37,6 +38,7 @@ _VALUE_AGENTS = (
     PrioritizedSweeping,
     LrtaStar,
     RMax,
+    Appraisal,
 )
 
 

@@ -15,6 +15,7 @@
 #include "agents/grid_world.hpp"
 #include "core/field_laws.hpp"
 #include "core/refusal.hpp"
+#include "devlearn/appraisal.hpp"
 #include "devlearn/detail/value_table.hpp"
 #include "devlearn/dyna_q.hpp"
 #include "devlearn/error.hpp"
@@ -30,7 +31,7 @@ using namespace devlearn;
 
 #define VALUE_AGENTS                                                                 \
   QLearning, ExpectedSarsa, SarsaLambda, DynaQ, PrioritizedSweeping, LrtaStar, RMax, \
-      OperantConditioning
+      OperantConditioning, Appraisal
 
 namespace {
 
@@ -166,7 +167,9 @@ TEST_CASE_TEMPLATE("a history and what was learned are the same to the bit on ev
       {PrioritizedSweeping::kKind, 0x1768064541a4a3a5U},
       {LrtaStar::kKind, 0x4345f55d48e0a6f9U},
       {RMax::kKind, 0xec3ea2d76c0e6311U},
-      {OperantConditioning::kKind, 0xb8d0982609846746U}};
+      {OperantConditioning::kKind, 0xb8d0982609846746U},
+
+      {Appraisal::kKind, 0xa3eb2490299fb516U}};
   CHECK(hash == expected.at(A::kKind));
 }
 

@@ -51,6 +51,9 @@ auto members_of(const Def& def) {
   } else if constexpr (n == 10) {
     const auto& [a, b, c, d, e, f, g, h, i, j] = def;
     return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j);
+  } else if constexpr (n == 12) {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = def;
+    return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l);
   } else if constexpr (n == 13) {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = def;
     return std::tuple(&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l, &m);

@@ -79,6 +79,7 @@ class ValueTable {
   /// 0 before the first choice.
   int motion_count() const noexcept { return motion_count_; }
   std::size_t rows() const noexcept { return index_.size(); }
+  SituationId situation(Row row) const noexcept { return index_.id(row); }
   /// How many values there are: a pair is a row and a motion.
   std::size_t pairs() const noexcept { return rows() * static_cast<std::size_t>(motion_count_); }
   std::size_t pair(Row row, int motion) const noexcept {
