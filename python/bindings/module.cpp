@@ -1,5 +1,6 @@
 #include "bindings.hpp"
 #include "devlearn/version.hpp"
+#include "tasks.hpp"
 #include "wrong_calls.hpp"
 
 namespace {
@@ -69,6 +70,7 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_value_agents(m);
   devlearn::python::bind_operant_conditioning(m);
   devlearn::python::bind_tasks(m);
+  devlearn::python::bind_balance(m);
   devlearn::python::bind_appraisal(m);
   devlearn::python::bind_foraging(m);
   devlearn::python::bind_trial(m);

@@ -10,6 +10,8 @@
 
 namespace devlearn::python {
 
+void bind_balance(py::module_& m);
+
 /// The class of a task T, made from its Config, and that of its settings. What all tasks have
 /// stands in Task.
 template <class T>

@@ -20,6 +20,8 @@ __all__: list[str] = [
     "Appraisal",
     "AppraisalConfig",
     "AppraisalExplanation",
+    "Balance",
+    "BalanceConfig",
     "Batch",
     "BatchConfig",
     "BatchRows",
@@ -74,6 +76,7 @@ __all__: list[str] = [
     "Task",
     "Trial",
     "TrialConfig",
+    "TwoWheeledDef",
     "World",
     "box2d_version",
     "commit",
@@ -3458,6 +3461,383 @@ class Task:
     def succeeded(self) -> bool:
         """
         Whether the episode that has ended ended well.
+        """
+
+class TwoWheeledDef:
+    """
+    A two-wheeled robot that balances. The defaults are those of NXTway-GS, a robot of LEGO
+    Mindstorms NXT (Y. Yamamoto 2009).
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    gravity
+        g: gravity; in (0, 100] m/s^2.
+    wheel_mass
+        m: of a wheel, a disk of inertia J_w = m R^2 / 2; in (0, 1000] kg.
+    wheel_radius
+        R: of a wheel; in (0, 10] m.
+    body_mass
+        M: of the body, of inertia J_psi = M L^2 / 3 about its centre; in (0, 1000] kg.
+    body_height
+        H: of the body, whose centre is L = H / 2 above the axle; in (0, 10] m.
+    motor_inertia
+        J_m: of a motor; in [0, 10] kg m^2.
+    gear_ratio
+        n: of a motor to its wheel; in (0, 1000].
+    motor_friction
+        f_m: torque of friction between body and wheel per angular rate; in [0, 100] N m s.
+    floor_friction
+        f_w: torque of friction between wheel and floor per angular rate; in [0, 100] N m s.
+    torque_constant
+        K_t: of a motor; in (0, 100] N m/A.
+    back_emf
+        K_b: constant of a motor; in [0, 100] V s.
+    resistance
+        R_m: of a motor; in (0, 1e+06] Ohm.
+    battery
+        V: voltage, which bounds the torque that a motor can give at a rate; in (0, 1000] V.
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> TwoWheeledDef:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        gravity: typing.SupportsFloat | typing.SupportsIndex = 9.81,
+        wheel_mass: typing.SupportsFloat | typing.SupportsIndex = 0.03,
+        wheel_radius: typing.SupportsFloat | typing.SupportsIndex = 0.04,
+        body_mass: typing.SupportsFloat | typing.SupportsIndex = 0.6,
+        body_height: typing.SupportsFloat | typing.SupportsIndex = 0.144,
+        motor_inertia: typing.SupportsFloat | typing.SupportsIndex = 1e-05,
+        gear_ratio: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        motor_friction: typing.SupportsFloat | typing.SupportsIndex = 0.0022,
+        floor_friction: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        torque_constant: typing.SupportsFloat | typing.SupportsIndex = 0.317,
+        back_emf: typing.SupportsFloat | typing.SupportsIndex = 0.468,
+        resistance: typing.SupportsFloat | typing.SupportsIndex = 6.69,
+        battery: typing.SupportsFloat | typing.SupportsIndex = 8.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> TwoWheeledDef:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def back_emf(self) -> float:
+        """
+        K_b: constant of a motor; in [0, 100] V s.
+        """
+    @property
+    def battery(self) -> float:
+        """
+        V: voltage, which bounds the torque that a motor can give at a rate; in (0, 1000] V.
+        """
+    @property
+    def body_height(self) -> float:
+        """
+        H: of the body, whose centre is L = H / 2 above the axle; in (0, 10] m.
+        """
+    @property
+    def body_mass(self) -> float:
+        """
+        M: of the body, of inertia J_psi = M L^2 / 3 about its centre; in (0, 1000] kg.
+        """
+    @property
+    def floor_friction(self) -> float:
+        """
+        f_w: torque of friction between wheel and floor per angular rate; in [0, 100] N m s.
+        """
+    @property
+    def gear_ratio(self) -> float:
+        """
+        n: of a motor to its wheel; in (0, 1000].
+        """
+    @property
+    def gravity(self) -> float:
+        """
+        g: gravity; in (0, 100] m/s^2.
+        """
+    @property
+    def motor_friction(self) -> float:
+        """
+        f_m: torque of friction between body and wheel per angular rate; in [0, 100] N m s.
+        """
+    @property
+    def motor_inertia(self) -> float:
+        """
+        J_m: of a motor; in [0, 10] kg m^2.
+        """
+    @property
+    def resistance(self) -> float:
+        """
+        R_m: of a motor; in (0, 1e+06] Ohm.
+        """
+    @property
+    def torque_constant(self) -> float:
+        """
+        K_t: of a motor; in (0, 100] N m/A.
+        """
+    @property
+    def wheel_mass(self) -> float:
+        """
+        m: of a wheel, a disk of inertia J_w = m R^2 / 2; in (0, 1000] kg.
+        """
+    @property
+    def wheel_radius(self) -> float:
+        """
+        R: of a wheel; in (0, 10] m.
+        """
+
+class BalanceConfig:
+    """
+    The settings of Balance.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    robot
+        What balances; a TwoWheeledDef.
+    torques
+        M: the motions: what each motor is asked for; 1 ... 1000 numbers, each in [-1000, 1000] N m.
+    sample_time
+        t_s: time of a step; in (0, 10] s.
+    substep
+        Longest step of integration, of which a step has as many as it needs; in (0, 10] s.
+    duration
+        After which an episode has succeeded; in (0, 1e+06] s.
+    angle_limit
+        Angle beyond which the robot has fallen; in (0, 90] degrees.
+    start_angle
+        An episode begins at rest, at any angle up to this, below the limit; in [0, 90] degrees.
+    angle_edges
+        Rising; between which angles are one situation; 0 ... 100 numbers, each in [-90, 90]
+        degrees.
+    rate_edges
+        The same of the angle's rate; 0 ... 100 numbers, each in [-1e+06, 1e+06] degrees/s.
+    wheel_rate_edges
+        The same of the wheels' rate; 0 ... 100 numbers, each in [-1e+06, 1e+06] degrees/s.
+    sef_scale
+        By how much SEF is lower where the robot leans by the limit than upright; in (0, 1e+06].
+    sef_rate
+        T_1: time by which the angle's rate counts as lean; in [0, 100] s.
+    sef_wheel_rate
+        T_2: time by which the wheels' rate counts as lean; in [0, 100] s.
+    fall_cost
+        Cost of a step that ends in a fall; others cost nothing; in [0, 1e+06].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> BalanceConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        robot: TwoWheeledDef | None = None,
+        torques: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = (
+            -0.04,
+            -0.01,
+            0.0,
+            0.01,
+            0.04,
+        ),
+        sample_time: typing.SupportsFloat | typing.SupportsIndex = 0.02,
+        substep: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        duration: typing.SupportsFloat | typing.SupportsIndex = 60.0,
+        angle_limit: typing.SupportsFloat | typing.SupportsIndex = 15.0,
+        start_angle: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+        angle_edges: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = (
+            -6.0,
+            -3.0,
+            -1.0,
+            1.0,
+            3.0,
+            6.0,
+        ),
+        rate_edges: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = (
+            -120.0,
+            -60.0,
+            -20.0,
+            20.0,
+            60.0,
+            120.0,
+        ),
+        wheel_rate_edges: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = (
+            -360.0,
+            -120.0,
+            120.0,
+            360.0,
+        ),
+        sef_scale: typing.SupportsFloat | typing.SupportsIndex = 20.0,
+        sef_rate: typing.SupportsFloat | typing.SupportsIndex = 0.07,
+        sef_wheel_rate: typing.SupportsFloat | typing.SupportsIndex = 0.02,
+        fall_cost: typing.SupportsFloat | typing.SupportsIndex = 100.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> BalanceConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def angle_edges(self) -> list[float]:
+        """
+        Rising; between which angles are one situation; 0 ... 100 numbers, each in [-90, 90] degrees.
+        """
+    @property
+    def angle_limit(self) -> float:
+        """
+        Angle beyond which the robot has fallen; in (0, 90] degrees.
+        """
+    @property
+    def duration(self) -> float:
+        """
+        After which an episode has succeeded; in (0, 1e+06] s.
+        """
+    @property
+    def fall_cost(self) -> float:
+        """
+        Cost of a step that ends in a fall; others cost nothing; in [0, 1e+06].
+        """
+    @property
+    def rate_edges(self) -> list[float]:
+        """
+        The same of the angle's rate; 0 ... 100 numbers, each in [-1e+06, 1e+06] degrees/s.
+        """
+    @property
+    def robot(self) -> TwoWheeledDef:
+        """
+        What balances; a TwoWheeledDef.
+        """
+    @property
+    def sample_time(self) -> float:
+        """
+        t_s: time of a step; in (0, 10] s.
+        """
+    @property
+    def sef_rate(self) -> float:
+        """
+        T_1: time by which the angle's rate counts as lean; in [0, 100] s.
+        """
+    @property
+    def sef_scale(self) -> float:
+        """
+        By how much SEF is lower where the robot leans by the limit than upright; in (0, 1e+06].
+        """
+    @property
+    def sef_wheel_rate(self) -> float:
+        """
+        T_2: time by which the wheels' rate counts as lean; in [0, 100] s.
+        """
+    @property
+    def start_angle(self) -> float:
+        """
+        An episode begins at rest, at any angle up to this, below the limit; in [0, 90] degrees.
+        """
+    @property
+    def substep(self) -> float:
+        """
+        Longest step of integration, of which a step has as many as it needs; in (0, 10] s.
+        """
+    @property
+    def torques(self) -> list[float]:
+        """
+        M: the motions: what each motor is asked for; 1 ... 1000 numbers, each in [-1000, 1000] N m.
+        """
+    @property
+    def wheel_rate_edges(self) -> list[float]:
+        """
+        The same of the wheels' rate; 0 ... 100 numbers, each in [-1e+06, 1e+06] degrees/s.
+        """
+
+class Balance(Task):
+    """
+    A two-wheeled robot learns to stand. An episode begins at rest, at an angle drawn; it ends
+    where the angle passes the limit, a fall, or when the robot has stood for the duration. A
+    motion is a torque, held for a sample time. Situations are intervals of angle, of its rate
+    and of the wheels' rate. With u = psi + T_1 psi' + T_2 theta', a lean that looks ahead, SEF
+    is -sef_scale (u / angle_limit)^2, and SMF its growth, at most -1 for a fall. A fall costs
+    fall_cost, other steps nothing; the estimate is 1 before the end. Senses: angle [degrees],
+    its rate [degrees/s], the wheels' angle, by which they have rolled, and its rate.
+
+    Parameters: config, a BalanceConfig, also Balance.Config (None: the defaults). Raises InvalidValue.
+    """
+
+    Config = BalanceConfig
+    def __init__(self, config: BalanceConfig | None = None) -> None: ...
+    def __repr__(self) -> str: ...
+    def begin_at(
+        self,
+        state: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
+        ],
+    ) -> None:
+        """
+        An episode begins in this state, four numbers as the senses. Raises InvalidValue for numbers that are not finite, and for an angle beyond the limit.
+        """
+    def sef_of(
+        self,
+        state: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
+        ],
+    ) -> float:
+        """
+        SEF of a state, four numbers as the senses.
+        """
+    def situation_of(
+        self,
+        state: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"
+        ],
+    ) -> int:
+        """
+        Which situation a state is, four numbers as the senses.
+        """
+    @property
+    def config(self) -> BalanceConfig:
+        """
+        Its settings.
+        """
+    @property
+    def situation_count(self) -> int:
+        """
+        How many situations there are.
+        """
+    @property
+    def state(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Four numbers as the senses, after the end, too.
+        """
+    @property
+    def time(self) -> float:
+        """
+        Since the episode began [s].
         """
 
 class AppraisalConfig:

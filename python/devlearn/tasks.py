@@ -3,7 +3,15 @@
 An agent lives through episodes of a task by run, or step by step.
 """
 
-from ._core import Foraging, ForagingConfig, Task
+from ._core import Balance, BalanceConfig, Foraging, ForagingConfig, Task, TwoWheeledDef
 from ._core import run_episodes as run
 
-__all__ = ["Foraging", "ForagingConfig", "Task", "run"]
+__all__ = [
+    "Balance",
+    "BalanceConfig",
+    "Foraging",
+    "ForagingConfig",
+    "Task",
+    "TwoWheeledDef",
+    "run",
+]

@@ -10,6 +10,8 @@ Outward: ``devlearn/Navigate-v0``, the paper's robot in any world, for agents of
         "devlearn/Navigate-v0", num_envs=64, vectorization_mode="vector_entry_point"
     )
 
+and the tasks of ``devlearn.tasks``, such as ``devlearn/Balance-v0`` (``TaskEnv``).
+
 Inward: learners of devlearn on environments of others (``LearnerOn``). Needs Gymnasium, which the
 extra ``envs`` brings; pictures need the extra ``plots``, too.
 """
@@ -25,11 +27,22 @@ from .learner_on import LearnerOn
 from .navigate import Navigate
 from .navigate_vector import NavigateVector
 from .situations import DiscreteSituations, TileSituations
+from .task_env import TaskEnv
 
-__all__ = ["DiscreteSituations", "LearnerOn", "Navigate", "NavigateVector", "TileSituations"]
+__all__ = [
+    "DiscreteSituations",
+    "LearnerOn",
+    "Navigate",
+    "NavigateVector",
+    "TaskEnv",
+    "TileSituations",
+]
 
 gymnasium.register(
     "devlearn/Navigate-v0",
     entry_point="devlearn.envs.navigate:Navigate",
     vector_entry_point="devlearn.envs.navigate_vector:NavigateVector",
+)
+gymnasium.register(
+    "devlearn/Balance-v0", entry_point="devlearn.envs.task_env:TaskEnv", kwargs={"task": "Balance"}
 )
