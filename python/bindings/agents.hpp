@@ -10,6 +10,7 @@
 #include "devlearn/appraisal.hpp"
 #include "devlearn/dyna_q.hpp"
 #include "devlearn/expected_sarsa.hpp"
+#include "devlearn/iac.hpp"
 #include "devlearn/lrta_star.hpp"
 #include "devlearn/operant_conditioning.hpp"
 #include "devlearn/prioritized_sweeping.hpp"
@@ -27,7 +28,7 @@ struct Agents {};
 /// devlearn's agents that are the same object in Python and in C++.
 using OwnAgents =
     Agents<RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, DynaQ, PrioritizedSweeping, LrtaStar,
-           RMax, OperantConditioning, Appraisal, ShortestPathAgent>;
+           RMax, Iac, OperantConditioning, Appraisal, ShortestPathAgent>;
 
 /// The class of one of them, without its module; null for any other.
 const char* own_name(const Agent& agent);

@@ -42,6 +42,8 @@ void bind_record(py::module_& m);
 void bind_tally(py::module_& m);
 void bind_agents(py::module_& m);
 void bind_value_agents(py::module_& m);
+void bind_iac(py::module_& m);
+void bind_attention(py::module_& m);
 void bind_operant_conditioning(py::module_& m);
 void bind_tasks(py::module_& m);
 void bind_appraisal(py::module_& m);

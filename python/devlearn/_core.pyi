@@ -20,6 +20,8 @@ __all__: list[str] = [
     "Appraisal",
     "AppraisalConfig",
     "AppraisalExplanation",
+    "Attention",
+    "AttentionConfig",
     "Balance",
     "BalanceConfig",
     "Batch",
@@ -36,6 +38,10 @@ __all__: list[str] = [
     "Explanation",
     "Foraging",
     "ForagingConfig",
+    "Iac",
+    "IacConfig",
+    "IacExplanation",
+    "IacRegion",
     "Kind",
     "Learner",
     "LearnerConfig",
@@ -3241,6 +3247,287 @@ class ShortestPathAgent:
         Of the target [m].
         """
 
+class IacRegion:
+    """
+    A region of the sensorimotor space of an Iac.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
+    @property
+    def above(self) -> int:
+        """
+        The other half; -1: none.
+        """
+    @property
+    def below(self) -> int:
+        """
+        The half below that; -1: none.
+        """
+    @property
+    def error(self) -> float:
+        """
+        <e>: the mean of its latest theta + 1 squared errors; NaN before the first.
+        """
+    @property
+    def exemplars(self) -> int:
+        """
+        How many it holds.
+        """
+    @property
+    def lower(self) -> list[float]:
+        """
+        What lies in it is not below these: a number for each of SM, first S, then M; -inf for no bound.
+        """
+    @property
+    def parent(self) -> int:
+        """
+        The one that was split into this one and another; -1: none.
+        """
+    @property
+    def progress(self) -> float:
+        """
+        L, Eq. 2.
+        """
+    @property
+    def region(self) -> int:
+        """
+        Its number, in the order in which they came to be; 0 is the whole space.
+        """
+    @property
+    def since(self) -> int:
+        """
+        How many exemplars had been learned when it came to be.
+        """
+    @property
+    def split_dimension(self) -> int:
+        """
+        Where in SM it was split; -1: it was not.
+        """
+    @property
+    def split_value(self) -> float:
+        """
+        At which value.
+        """
+    @property
+    def upper(self) -> list[float]:
+        """
+        And below these; inf for no bound.
+        """
+
+class IacExplanation:
+    """
+    Why an Iac chooses motions for what is observed. str() of it is a table.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def allowed(self) -> list[bool]:
+        """
+        A bool a motion.
+        """
+    @property
+    def probability(self) -> list[float]:
+        """
+        A number a motion: of being chosen; they sum to 1.
+        """
+    @property
+    def progress(self) -> list[float]:
+        """
+        A number a motion: the progress that is expected, L of its region, Eq. 4.
+        """
+    @property
+    def region(self) -> list[int]:
+        """
+        A number a motion: where it falls.
+        """
+    @property
+    def regions(self) -> list[IacRegion]:
+        """
+        Each IacRegion in which a motion falls, by their number.
+        """
+    @property
+    def senses(self) -> list[float]:
+        """
+        S(t), as it learns from it.
+        """
+
+class IacConfig:
+    """
+    The settings of Iac.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    epsilon
+        epsilon: probability of any motion instead of one of the most progress; in [0, 1].
+    most_exemplars
+        T: exemplars of a region, above which it is split; a whole number in [2, 100000].
+    smoothing
+        theta: a mean error is that of the latest theta + 1; a whole number in [0, 10000].
+    window
+        tau: progress is how much the mean error fell over so many errors; a whole number in [1,
+        10000].
+    neighbours
+        k: nearest exemplars, of what followed which the mean is predicted; a whole number in [1,
+        1000].
+    most_regions
+        Regions, above which none is split, and a full one forgets its oldest exemplar; a whole
+        number in [1, 1000000].
+    length
+        What counts as 1 of places and distances in a trial; in [0.01, 1e+06] m.
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> IacConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        epsilon: typing.SupportsFloat | typing.SupportsIndex = 0.35,
+        most_exemplars: typing.SupportsIndex = 250,
+        smoothing: typing.SupportsIndex = 25,
+        window: typing.SupportsIndex = 15,
+        neighbours: typing.SupportsIndex = 1,
+        most_regions: typing.SupportsIndex = 1000,
+        length: typing.SupportsFloat | typing.SupportsIndex = 5.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> IacConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def epsilon(self) -> float:
+        """
+        epsilon: probability of any motion instead of one of the most progress; in [0, 1].
+        """
+    @property
+    def length(self) -> float:
+        """
+        What counts as 1 of places and distances in a trial; in [0.01, 1e+06] m.
+        """
+    @property
+    def most_exemplars(self) -> int:
+        """
+        T: exemplars of a region, above which it is split; a whole number in [2, 100000].
+        """
+    @property
+    def most_regions(self) -> int:
+        """
+        Regions, above which none is split, and a full one forgets its oldest exemplar; a whole number in [1, 1000000].
+        """
+    @property
+    def neighbours(self) -> int:
+        """
+        k: nearest exemplars, of what followed which the mean is predicted; a whole number in [1, 1000].
+        """
+    @property
+    def smoothing(self) -> int:
+        """
+        theta: a mean error is that of the latest theta + 1; a whole number in [0, 10000].
+        """
+    @property
+    def window(self) -> int:
+        """
+        tau: progress is how much the mean error fell over so many errors; a whole number in [1, 10000].
+        """
+
+class Iac:
+    """
+    Intelligent adaptive curiosity (Oudeyer, Kaplan & Hafner 2007): it seeks the region of its
+    sensorimotor space in which its predictions improve the most, and is not led by rewards.
+
+    In a trial: Trial(world, agent=Iac()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, an IacConfig, also Iac.Config (None: the defaults); seed of its draws;
+    motors, a matrix of numbers in [-1e9, 1e9], a row a motion (None: one number, from 0 of the
+    first motion to 1 of the last).
+    Raises InvalidValue.
+    """
+
+    Config = IacConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self,
+        config: IacConfig | None = None,
+        seed: typing.SupportsIndex = 0,
+        motors: list[list[typing.SupportsFloat | typing.SupportsIndex]]
+        | typing.Annotated[numpy.typing.ArrayLike, numpy.float64]
+        | None = None,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def explain(self, observation: Observation) -> IacExplanation:
+        """
+        Why motions are chosen for what is observed: an IacExplanation. Draws and changes nothing. Raises InvalidValue.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
+    def predict(
+        self, observation: Observation, motion: typing.SupportsIndex
+    ) -> numpy.typing.NDArray[numpy.float64] | None:
+        """
+        What will be sensed after a motion, by what is learned so far; None before the first exemplar. Raises InvalidValue.
+        """
+    def regions(self) -> typing.Any:
+        """
+        All regions that ever were, by their number: a structured array with the fields of an IacRegion.
+        """
+    def tree(self) -> str:
+        """
+        The regions as a text, each line below that of the region that it was split from.
+        """
+    @property
+    def config(self) -> IacConfig:
+        """
+        Its settings.
+        """
+    @property
+    def motors(self) -> typing.Any:
+        """
+        A copy of the matrix of motors; None where it is not needed yet.
+        """
+
 class ConditioningExplanation:
     """
     What devlearn.agents.OperantConditioning has come to in a situation. str() of it is a table.
@@ -3461,6 +3748,141 @@ class Task:
     def succeeded(self) -> bool:
         """
         Whether the episode that has ended ended well.
+        """
+
+class AttentionConfig:
+    """
+    The settings of Attention.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    speeds
+        Speeds of a wheel, evenly from -1 to 1; a whole number in [2, 21].
+    frequencies
+        Frequencies of the sound, in the middles of even parts of [0, 1]; a whole number in [3, 99].
+    side
+        Side of the square room; in [0.01, 1000] m.
+    speed
+        Way of a wheel in a step at a speed of 1; in [0, 1000] m.
+    axle
+        Distance between the wheels; in [0.001, 1000] m.
+    noise
+        Standard deviation of the distance that is sensed; in [0, 1000] m.
+    steps
+        Steps of an episode; a whole number in [1, 1000000000].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> AttentionConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        speeds: typing.SupportsIndex = 5,
+        frequencies: typing.SupportsIndex = 9,
+        side: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        speed: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        axle: typing.SupportsFloat | typing.SupportsIndex = 0.2,
+        noise: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        steps: typing.SupportsIndex = 5000,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> AttentionConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def axle(self) -> float:
+        """
+        Distance between the wheels; in [0.001, 1000] m.
+        """
+    @property
+    def frequencies(self) -> int:
+        """
+        Frequencies of the sound, in the middles of even parts of [0, 1]; a whole number in [3, 99].
+        """
+    @property
+    def noise(self) -> float:
+        """
+        Standard deviation of the distance that is sensed; in [0, 1000] m.
+        """
+    @property
+    def side(self) -> float:
+        """
+        Side of the square room; in [0.01, 1000] m.
+        """
+    @property
+    def speed(self) -> float:
+        """
+        Way of a wheel in a step at a speed of 1; in [0, 1000] m.
+        """
+    @property
+    def speeds(self) -> int:
+        """
+        Speeds of a wheel, evenly from -1 to 1; a whole number in [2, 21].
+        """
+    @property
+    def steps(self) -> int:
+        """
+        Steps of an episode; a whole number in [1, 1000000000].
+        """
+
+class Attention(Task):
+    """
+    A room with a robot on two wheels, which can sound, and a toy (Oudeyer, Kaplan & Hafner
+    2007, section VI). A motion is (l, r, f), the speeds of both wheels in [-1, 1] and the
+    frequency of a sound in [0, 1]; what is sensed is the distance to the toy, with noise [m].
+    Below 1/3 of f the toy goes anywhere, below 2/3 it stays, else it jumps to the robot. Nothing
+    is to be reached, and a step costs nothing: what matters is where attention goes.
+
+    Parameters: config, a AttentionConfig, also Attention.Config (None: the defaults). Raises InvalidValue.
+    """
+
+    Config = AttentionConfig
+    def __init__(self, config: AttentionConfig | None = None) -> None: ...
+    def __repr__(self) -> str: ...
+    def zone(self, motion: typing.SupportsIndex) -> int:
+        """
+        What the toy does at a motion: 0, it goes anywhere; 1, it stays; 2, it jumps to the robot. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> AttentionConfig:
+        """
+        Its settings.
+        """
+    @property
+    def distance(self) -> float:
+        """
+        Between them, as it is sensed [m].
+        """
+    @property
+    def motors(self) -> numpy.ndarray:
+        """
+        A copy of the matrix of (l, r, f), a row a motion; f varies fastest.
+        """
+    @property
+    def robot(self) -> devlearn._types.Pose:
+        """
+        Where the robot is: a Pose [m, m, degrees].
+        """
+    @property
+    def toy(self) -> tuple[float, float]:
+        """
+        Where the toy is [m].
         """
 
 class TwoWheeledDef:

@@ -3,10 +3,21 @@
 An agent lives through episodes of a task by run, or step by step.
 """
 
-from ._core import Balance, BalanceConfig, Foraging, ForagingConfig, Task, TwoWheeledDef
+from ._core import (
+    Attention,
+    AttentionConfig,
+    Balance,
+    BalanceConfig,
+    Foraging,
+    ForagingConfig,
+    Task,
+    TwoWheeledDef,
+)
 from ._core import run_episodes as run
 
 __all__ = [
+    "Attention",
+    "AttentionConfig",
     "Balance",
     "BalanceConfig",
     "Foraging",

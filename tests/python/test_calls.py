@@ -122,6 +122,7 @@ ODD = [
 RESULTS = {
     "AdaptiveExplanation", "AdaptiveMemory", "BatchRows", "ChoiceTrace", "ConditioningExplanation",
     "Explanation", "MemoryUse", "Recollection", "ShortestPath", "SituationMemory", "Step", "Task",
+    "IacExplanation", "IacRegion",
 }  # fmt: skip
 
 
@@ -142,7 +143,7 @@ def public():
         **{
             name: agent(Robot(WORLD)) if name == "ShortestPathAgent" else agent()
             for name, agent in vars(agents).items()
-            if name in agents.__all__
+            if name in agents.__all__ and name not in RESULTS
         },
         **{
             name: task()

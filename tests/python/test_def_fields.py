@@ -33,7 +33,7 @@ CONFIGS = [
     agents.PrioritizedSweeping.Config, agents.LrtaStar.Config, agents.RMax.Config,
     agents.OperantConditioning.Config, agents.Appraisal.Config, tasks.Foraging.Config,
     tasks.Balance.Config, tasks.TwoWheeledDef,
-    BatchConfig,
+    BatchConfig, agents.Iac.Config, tasks.Attention.Config,
 ]  # fmt: skip
 each_config = pytest.mark.parametrize("kind", CONFIGS)
 NO, WHOLE = "", "a whole number in [{}, {}]"
@@ -234,6 +234,24 @@ EXPECTED = {
         "back_emf": ("K_b", "V s", "in [0, 100] V s", 0.468),
         "resistance": ("R_m", "Ohm", "in (0, 1e+06] Ohm", 6.69),
         "battery": ("V", "V", "in (0, 1000] V", 8.0),
+    },
+    agents.Iac.Config: {
+        "epsilon": ("epsilon", NO, "in [0, 1]", 0.35),
+        "most_exemplars": ("T", NO, WHOLE.format(2, 100_000), 250),
+        "smoothing": ("theta", NO, WHOLE.format(0, 10_000), 25),
+        "window": ("tau", NO, WHOLE.format(1, 10_000), 15),
+        "neighbours": ("k", NO, WHOLE.format(1, 1000), 1),
+        "most_regions": (NO, NO, WHOLE.format(1, 1_000_000), 1000),
+        "length": (NO, "m", "in [0.01, 1e+06] m", 5.0),
+    },
+    tasks.Attention.Config: {
+        "speeds": (NO, NO, WHOLE.format(2, 21), 5),
+        "frequencies": (NO, NO, WHOLE.format(3, 99), 9),
+        "side": (NO, "m", "in [0.01, 1000] m", 1.0),
+        "speed": (NO, "m", "in [0, 1000] m", 0.1),
+        "axle": (NO, "m", "in [0.001, 1000] m", 0.2),
+        "noise": (NO, "m", "in [0, 1000] m", 0.01),
+        "steps": (NO, NO, WHOLE.format(1, 10**9), 5000),
     },
     BatchConfig: {
         "reward": (NO, NO, "'shaped' or 'cost' or 'smf' or 'sparse'", "shaped"),

@@ -5,6 +5,7 @@
 #include "devlearn/dyna_q.hpp"
 #include "devlearn/error.hpp"
 #include "devlearn/expected_sarsa.hpp"
+#include "devlearn/iac.hpp"
 #include "devlearn/learner_agent.hpp"
 #include "devlearn/lrta_star.hpp"
 #include "devlearn/operant_conditioning.hpp"
@@ -37,8 +38,8 @@ std::shared_ptr<Agent> one_of(const AgentState& state, const std::string& source
 
 std::shared_ptr<Agent> make_agent(const AgentState& state, const std::string& source) {
   return one_of<LearnerAgent, AdaptiveAgent, RandomAgent, QLearning, ExpectedSarsa, SarsaLambda,
-                DynaQ, PrioritizedSweeping, LrtaStar, RMax, OperantConditioning, Appraisal>(state,
-                                                                                            source);
+                DynaQ, PrioritizedSweeping, LrtaStar, RMax, Iac, OperantConditioning, Appraisal>(
+      state, source);
 }
 
 }  // namespace devlearn
