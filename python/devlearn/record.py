@@ -165,24 +165,29 @@ class Record:  # noqa: D101 - made of the columns
         columns = {n: np.concatenate([getattr(r, n) for r in records]) for n in STEP_COLUMNS}
         if echoes:
             columns["echoes"] = np.concatenate(echoes)
-        poses = {n: np.concatenate([getattr(r, n) for r in records]) for n in POSE_COLUMNS}
         rounds = np.concatenate([record.rounds for record in records])
-        # Where a record begins: which entry, and which pose.
-        entries = np.cumsum([0, *(len(record.rounds) for record in records)])
-        firsts = np.cumsum([0, *(len(record.x) for record in records)])
+        # The first and the last pose of each record; where a record begins among these and rounds.
+        ends = {
+            n: np.concatenate([part for r in records for part in (r[n][:1], r[n][-1:])])
+            for n in POSE_COLUMNS
+        }
+        entries = np.cumsum([0, *(len(record.rounds) for record in records)]).tolist()
+        firsts = np.cumsum([0, *(2 * (len(record.x) > 0) for record in records)]).tolist()
         goes_on = {
             (entry, pose)
-            for entry, pose in zip(entries.tolist(), firsts.tolist())
+            for entry, pose in zip(entries, firsts)
             if 0 < entry < len(rounds)
             and rounds["round"][entry] == rounds["round"][entry - 1]
-            and all(np.array_equal(p[pose : pose + 1], p[pose - 1 : pose]) for p in poses.values())
+            and all(np.array_equal(p[pose : pose + 1], p[pose - 1 : pose]) for p in ends.values())
         }
         for entry, _ in sorted(goes_on, reverse=True):
             rounds["steps"][entry - 1] += rounds["steps"][entry]
             rounds["arrived"][entry - 1] |= rounds["arrived"][entry]
         columns["rounds"] = np.delete(rounds, [entry for entry, _ in goes_on])
-        twice = [pose for _, pose in goes_on if pose > 0]  # but for records of rounds only
-        columns |= {n: np.delete(p, twice) for n, p in poses.items()}
+        twice = {pose for _, pose in goes_on if pose > 0}  # but for records of rounds only
+        for n in POSE_COLUMNS:
+            parts = [r[n][int(first in twice) :] for r, first in zip(records, firsts)]
+            columns[n] = np.concatenate(parts)
         return cls(columns, records[0].provenance, records[0].learner)
 
     def __len__(self) -> int:

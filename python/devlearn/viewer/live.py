@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple
 from urllib.parse import urlsplit
@@ -26,12 +26,13 @@ from .steps import Shown
 if TYPE_CHECKING:
     from .stream import Stream
 
-SHARE = 0.5  # of the time of the run that showing it may take,
-ALLOWANCE = 0.1  # and so many seconds more
+SHARE = 0.2  # of the time of the run that showing it may take (joining a phase's pieces: as much),
+ALLOWANCE = 0.2  # and so many seconds more
 BETWEEN = 0.25  # seconds from batch to batch
 IN_FULL = 100_000  # steps that are shown whatever their pace, and of further ones
 A_SECOND = 1000  # so many in a second
 LEAST = 1000  # steps of a batch that are always shown
+TOGETHER = 20_000  # that records of a batch have at most which are sent as one
 MOST_WORDS = 100  # of one sort in the log, in a batch
 
 _FIRST_COST = 3e-6  # of showing a step [s], before it is measured
@@ -54,10 +55,11 @@ class Live:
     their options but ``progress``, and give the same record to the bit. ``send`` shows records of
     phases that were called otherwise. As a context manager it closes at the end.
 
-    Showing takes at most half the time that the trial takes. Where steps come faster than that
-    allows, or faster than anyone can look (100 000, and then 1000 a second), some rounds are shown
-    whole, or some steps of each, and the log says so; what rounds came to is always shown. Where
-    the viewer is gone or the disk is full, the trial goes on, and ``failed`` says why.
+    Showing takes at most a fifth of the time that the trial takes, and a fifth of a second. Where
+    steps come faster than that allows, or faster than anyone can look (100 000, and then 1000 a
+    second), some rounds are shown whole, or some steps of each, and the log says so; what rounds
+    came to is always shown. Where the viewer is gone or the disk is full, the trial goes on, and
+    ``failed`` says why.
     """
 
     def __init__(self, trial: Trial, stream: Stream) -> None:
@@ -147,9 +149,9 @@ class Live:
                 made.append(finished)
                 self.send(finished, phase)
             if made:
-                self.trial.interrupted = Record.concatenate(made)
+                self.trial.interrupted = _joined(made)
             raise
-        return made[0] if len(made) == 1 else Record.concatenate(made)
+        return _joined(made)
 
     # --- showing ----------------------------------------------------------------------------------
 
@@ -203,7 +205,10 @@ class Live:
         most = max(LEAST, int(min(self._credit, self._spare() / self._cost)))
         pending, self._pending = self._pending, []
         try:
-            count = self._send_batch(self._stream, pending, most)
+            total, count = sum(map(len, pending)), 0
+            for record in _grouped(pending):
+                share = most * len(record) // max(total, 1)
+                count += self._send_batch(self._stream, record, max(LEAST, share))
             if last:
                 self._send_end(self._stream)
             self._stream.flush()
@@ -216,27 +221,24 @@ class Live:
         if count >= LEAST:
             self._cost = (self._cost + (self._last - began) / count) / 2
 
-    def _send_batch(self, stream: Stream, pending: list[Record], most: int) -> int:
-        """Sends a batch of at most so many steps; gives how many."""
+    def _send_batch(self, stream: Stream, record: Record, most: int) -> int:
+        """Sends a record, and of its steps at most so many; gives how many."""
         count = 0
-        if pending:
-            record = Record.concatenate(pending)
-            if (name := record.provenance["world"]["hash"]) != self._world:
-                self._world = name
-                began, number = record.rounds[["began", "round"]][0].item()
-                stream.change_world(record.world, began, number)
-            self._end_rounds(stream, record.rounds)
-            if not record.rounds_only:
-                view = Shown.of(record, most)
-                count = len(view.steps)
-                self._say_what_is_left_out(record, view)
-                stream.steps(record, view)
-                self._words += _happened(record)
-                self.steps += len(record)
-                self.steps_shown += count
+        if (name := record.provenance["world"]["hash"]) != self._world:
+            self._world = name
+            began, number = record.rounds[["began", "round"]][0].item()
+            stream.change_world(record.world, began, number)
+        self._end_rounds(stream, record.rounds)
+        if not record.rounds_only:
+            view = Shown.of(record, most)
+            count = len(view.steps)
+            self._say_what_is_left_out(record, view)
+            stream.steps(record, view)
+            self._words += _happened(record)
+            self.steps += len(record)
+            self.steps_shown += count
         words, self._words = self._words, []
-        if words:
-            stream.say(sorted(words, key=lambda word: word.step))
+        stream.say(sorted(words, key=lambda word: word.step))
         return count
 
     def _end_rounds(self, stream: Stream, rounds: npt.NDArray[np.void]) -> None:
@@ -254,14 +256,14 @@ class Live:
 
     def _show_rounds(self, stream: Stream, rounds: npt.NDArray[np.void]) -> None:
         stream.rounds(rounds)
-        self._words += _some_of(
-            "rounds",
-            [
-                Word(began + steps, number, "INFO" if arrived else "WARN", f"round {number}: "
-                     + (f"{steps} steps, arrived" if arrived else f"not arrived in {steps} steps"))
-                for number, steps, arrived, began in rounds.tolist()
-            ],
-        )  # fmt: skip
+
+        def word(i: int) -> Word:
+            number, steps, arrived, began = rounds[i].item()
+            told = f"{steps} steps, arrived" if arrived else f"not arrived in {steps} steps"
+            level = "INFO" if arrived else "WARN"
+            return Word(began + steps, number, level, f"round {number}: {told}")
+
+        self._words += _some_of("rounds", np.arange(len(rounds)), word)
 
     def _say_what_is_left_out(self, record: Record, view: Shown) -> None:
         thinned = view.every_entry, view.every
@@ -337,47 +339,63 @@ def _alike(one: Record, other: Record) -> bool:
     )
 
 
+def _joined(records: Sequence[Record]) -> Record:
+    return records[0] if len(records) == 1 else Record.concatenate(records)
+
+
+def _grouped(records: Iterable[Record]) -> Iterator[Record]:
+    """Short ones joined, long ones by themselves: joining takes time."""
+    group: list[Record] = []
+    for record in records:
+        if group and sum(map(len, group)) + len(record) > TOGETHER:
+            yield _joined(group)
+            group = []
+        group.append(record)
+    if group:
+        yield _joined(group)
+
+
 def _happened(record: Record) -> Iterator[Word]:
     """Arrivals, touches and reductions among the steps of a record."""
-    offsets, steps = record.offsets(), record.rounds["steps"]
-    entry = np.repeat(np.arange(len(steps)), steps)
-    made = np.arange(1, len(record) + 1) + (record.rounds["began"] - offsets[:-1])[entry]
-    begins = np.append(True, entry[1:] > entry[:-1])[: len(entry)]
+    offsets = record.offsets()
+
+    def newly(column: npt.NDArray[np.bool_]) -> npt.NDArray[np.int64]:
+        new = column.copy()
+        new[1:] &= ~column[:-1]
+        begins = offsets[:-1][record.rounds["steps"] > 0]
+        new[begins] = column[begins]
+        return np.flatnonzero(new)
 
     def words(
-        sort: str, level: str, which: npt.NDArray[np.bool_], text: Callable[[int], str]
+        sort: str, level: str, which: npt.NDArray[np.int64], text: Callable[[int, int], str]
     ) -> Iterator[Word]:
-        found = np.flatnonzero(which)
-        yield from _some_of(
-            sort,
-            [Word(int(made[i]), int(record.round[i]), level, text(i)) for i in found.tolist()],
-        )
+        def word(i: int) -> Word:
+            entry = int(np.searchsorted(offsets, i, "right")) - 1
+            step = int(record.rounds["began"][entry]) + i - int(offsets[entry]) + 1
+            return Word(step, int(record.round[i]), level, text(i, i + entry + 1))
 
-    def newly(column: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-        before = np.append(False, column[:-1])[: len(column)]
-        new: npt.NDArray[np.bool_] = column & (begins | ~before)
-        return new
+        return _some_of(sort, which, word)
 
-    def where(i: int) -> str:
-        pose = i + int(entry[i]) + 1
-        return f"({record.x[pose]:.2f}, {record.y[pose]:.2f})"
+    def touch(step: int, pose: int) -> str:
+        return f"touches something at ({record.x[pose]:.2f}, {record.y[pose]:.2f})"
 
-    yield from words("arrivals", "INFO", newly(record.arrived), lambda i: "at the target")
-    yield from words(
-        "touches", "DEBUG", newly(record.collided), lambda i: f"touches something at {where(i)}"
-    )
-    yield from words(
-        "reductions", "DEBUG", record.reduced > 0,
-        lambda i: f"situation {record.situation[i]} loses {record.reduced[i]} of its motions",
-    )  # fmt: skip
+    def reduction(step: int, pose: int) -> str:
+        return f"situation {record.situation[step]} loses {record.reduced[step]} of its motions"
+
+    yield from words("arrivals", "INFO", newly(record.arrived), lambda *_: "at the target")
+    yield from words("touches", "DEBUG", newly(record.collided), touch)
+    yield from words("reductions", "DEBUG", np.flatnonzero(record.reduced), reduction)
 
 
-def _some_of(sort: str, words: Sequence[Word]) -> Iterator[Word]:
+def _some_of(
+    sort: str, found: npt.NDArray[np.int64], word: Callable[[int], Word]
+) -> Iterator[Word]:
     """As many as are told of a batch, and how many there are besides."""
-    yield from words[:MOST_WORDS]
-    if len(words) > MOST_WORDS:
-        step, number, *_ = words[-1]
-        yield Word(step, number, "INFO", f"and {len(words) - MOST_WORDS} more {sort}")
+    yield from map(word, found[:MOST_WORDS].tolist())
+    if len(found) > MOST_WORDS:
+        last = word(int(found[-1]))
+        told = f"and {len(found) - MOST_WORDS} more {sort}"
+        yield Word(last.step, last.round, "INFO", told)
 
 
 # --- where it is shown ----------------------------------------------------------------------------

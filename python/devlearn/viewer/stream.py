@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import uuid
+import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -45,7 +46,7 @@ class Moments(NamedTuple):
 
 
 class Stream:
-    """A recording of Rerun's: into a file, to a viewer, or both. Raises what Rerun raises.
+    """Recordings of Rerun's: into a file, to a viewer, or both. Raises what Rerun raises.
 
     Parameters: the trial that is shown; a file's path, and a viewer's address, of which one may be
     None.
@@ -53,16 +54,14 @@ class Stream:
 
     def __init__(self, trial: Trial, path: str | None, address: str | None) -> None:
         self._world, self._config = trial.world, trial.config
-        self._recording = rerun.RecordingStream(
-            APPLICATION, recording_id=uuid.uuid4(), send_properties=False
-        )
         sinks: list[Any] = [] if path is None else [rerun.FileSink(path)]
         sinks += [] if address is None else [rerun.GrpcSink(address)]
-        rerun.set_sinks(*sinks, default_blueprint=_layout(trial.world), recording=self._recording)
+        self._recordings = [_opened(sink, trial.world) for sink in sinks]
         whence = provenance_of(trial.world, trial.config, trial.seed, trial.agent)
         world = whence["world"]
         name = f"{world['name'] or 'world'}, seed {trial.seed}"
-        self._recording.send_recording_name(name)
+        for recording in self._recordings:
+            recording.send_recording_name(name)
         about = json.dumps({**whence, "world": {**world, "json": "..."}}, indent=1)
         text = f"# {name}\n\n```json\n{about}\n```\n"
         self._log("about", rerun.TextDocument(text, media_type="text/markdown"))
@@ -71,12 +70,24 @@ class Stream:
         self.change_world(trial.world, 0, 0)
 
     def flush(self) -> None:
-        """Waits until what was sent is in the file and at the viewer."""
-        self._recording.flush(timeout_sec=_SECONDS)
+        """Waits until what was sent is in the file and at the viewer.
+
+        Where it is not, that one is sent nothing more, which is a RuntimeWarning while the other is
+        there; raises what Rerun raises where there is none.
+        """
+        for recording in self._recordings[:]:
+            try:
+                recording.flush(timeout_sec=_SECONDS)
+            except Exception as error:
+                self._recordings.remove(recording)
+                if not self._recordings:
+                    raise
+                warnings.warn(f"shown in one place less: {error}", RuntimeWarning, stacklevel=5)
 
     def close(self) -> None:
         """The file is whole then."""
-        self._recording.disconnect()
+        for recording in self._recordings:
+            recording.disconnect()
 
     # --- what stands still ------------------------------------------------------------------------
 
@@ -199,7 +210,8 @@ class Stream:
         self._send(entity, at, rerun.LineStrips2D.columns(strips=lines).partition(each))
 
     def _log(self, entity: str, what: Any) -> None:
-        rerun.log(entity, what, static=True, recording=self._recording, strict=True)
+        for recording in self._recordings:
+            rerun.log(entity, what, static=True, recording=recording, strict=True)
 
     def _send(self, entity: str, at: Moments, columns: Any) -> None:
         if len(at.step) == 0:
@@ -209,7 +221,14 @@ class Stream:
             rerun.TimeColumn("time", duration=at.step * self._config.robot.sample_time),
             rerun.TimeColumn("round", sequence=at.round),
         ]
-        rerun.send_columns(entity, when, columns, recording=self._recording, strict=True)
+        for recording in self._recordings:
+            rerun.send_columns(entity, when, columns, recording=recording, strict=True)
+
+
+def _opened(sink: Any, world: World) -> Any:
+    recording = rerun.RecordingStream(APPLICATION, recording_id=uuid.uuid4(), send_properties=False)
+    rerun.set_sinks(sink, default_blueprint=_layout(world), recording=recording)
+    return recording
 
 
 def _some(at: Moments, which: Array) -> Moments:

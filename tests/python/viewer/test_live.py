@@ -337,7 +337,7 @@ def test_what_is_too_much_is_thinned_and_the_log_says_so(paper, tmp_path, monkey
     )
 
 
-def test_showing_takes_at_most_half_the_time_of_the_run_however_slow_it_is(
+def test_showing_takes_no_more_than_its_share_of_the_time_however_slow_it_is(
     paper, tmp_path, monkeypatch
 ):
     def slow(stream):
