@@ -17,6 +17,7 @@
 #include "devlearn/q_learning.hpp"
 #include "devlearn/r_max.hpp"
 #include "devlearn/random_agent.hpp"
+#include "devlearn/salient_events.hpp"
 #include "devlearn/sarsa_lambda.hpp"
 #include "devlearn/shortest_path_agent.hpp"
 #include "devlearn/trial_snapshot.hpp"
@@ -28,7 +29,7 @@ struct Agents {};
 /// devlearn's agents that are the same object in Python and in C++.
 using OwnAgents =
     Agents<RandomAgent, QLearning, ExpectedSarsa, SarsaLambda, DynaQ, PrioritizedSweeping, LrtaStar,
-           RMax, Iac, OperantConditioning, Appraisal, ShortestPathAgent>;
+           RMax, Iac, OperantConditioning, SalientEvents, Appraisal, ShortestPathAgent>;
 
 /// The class of one of them, without its module; null for any other.
 const char* own_name(const Agent& agent);

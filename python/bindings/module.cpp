@@ -70,7 +70,9 @@ PYBIND11_MODULE(_core, m) {
   devlearn::python::bind_value_agents(m);
   devlearn::python::bind_iac(m);
   devlearn::python::bind_operant_conditioning(m);
+  devlearn::python::bind_salient_events(m);
   devlearn::python::bind_tasks(m);
+  devlearn::python::bind_playroom(m);
   devlearn::python::bind_attention(m);
   devlearn::python::bind_balance(m);
   devlearn::python::bind_appraisal(m);

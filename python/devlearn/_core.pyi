@@ -55,7 +55,10 @@ __all__: list[str] = [
     "Observation",
     "OperantConditioning",
     "OperantConditioningConfig",
+    "OptionView",
     "Outcome",
+    "Playroom",
+    "PlayroomConfig",
     "Polygon",
     "Polyline",
     "PrioritizedSweeping",
@@ -70,6 +73,9 @@ __all__: list[str] = [
     "Rectangle",
     "Robot",
     "RobotDef",
+    "SalientEvents",
+    "SalientEventsConfig",
+    "SalientEventsExplanation",
     "SarsaLambda",
     "SarsaLambdaConfig",
     "ShortestPath",
@@ -3719,6 +3725,232 @@ class OperantConditioning:
         Its settings.
         """
 
+class OptionView:
+    """
+    An option, as it stands in a situation.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
+    @property
+    def available(self) -> bool:
+        """
+        Whether it can be begun here.
+        """
+    @property
+    def event(self) -> int:
+        """
+        The salient event that it leads to, 0 ... 63.
+        """
+    @property
+    def intrinsic(self) -> float:
+        """
+        Intrinsic reward of its event now, where it comes in the likeliest way.
+        """
+    @property
+    def motion(self) -> int:
+        """
+        What it does first, the first among equals; -1 where it is not available.
+        """
+    @property
+    def probability(self) -> float:
+        """
+        Of its event, in [0, 1], discounted by the steps to it: sum_x P(x | s).
+        """
+    @property
+    def value(self) -> float:
+        """
+        Q_B of it.
+        """
+
+class SalientEventsExplanation:
+    """
+    What SalientEvents makes of a situation. str() of it is a table.
+    """
+
+    __hash__: typing.ClassVar[None] = None  # type: ignore
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple[typing.Any, ...]) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def allowed(self) -> list[bool]:
+        """
+        N bools: whether each motion was, at the last choice there.
+        """
+    @property
+    def options(self) -> list[OptionView]:
+        """
+        An OptionView each, in the order in which they were made.
+        """
+    @property
+    def running(self) -> list[int]:
+        """
+        Events of the options under way, the outermost first.
+        """
+    @property
+    def situation(self) -> int:
+        """
+        The situation's id.
+        """
+    @property
+    def value(self) -> list[float]:
+        """
+        N values: Q_B of each motion.
+        """
+
+class SalientEventsConfig:
+    """
+    The settings of SalientEvents.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    alpha
+        alpha: step size; in (0, 1].
+    gamma
+        gamma: discount rate; in (0, 1].
+    epsilon
+        epsilon: probability of a random motion or option instead of a greedy one; within an option,
+        of a random motion; in [0, 1].
+    tau
+        tau: intrinsic reward of a salient event that was not foreseen at all; in [0, 1e+06].
+    terminal_value
+        What its event is worth to an option; in [-1e+06, 1e+06].
+    endings
+        Situations in which an option ends that its model keeps for each one, at most; a whole
+        number in [1, 1000000].
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> SalientEventsConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self,
+        alpha: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        gamma: typing.SupportsFloat | typing.SupportsIndex = 0.9,
+        epsilon: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        tau: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        terminal_value: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        endings: typing.SupportsIndex = 32,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> SalientEventsConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        alpha: step size; in (0, 1].
+        """
+    @property
+    def endings(self) -> int:
+        """
+        Situations in which an option ends that its model keeps for each one, at most; a whole number in [1, 1000000].
+        """
+    @property
+    def epsilon(self) -> float:
+        """
+        epsilon: probability of a random motion or option instead of a greedy one; within an option, of a random motion; in [0, 1].
+        """
+    @property
+    def gamma(self) -> float:
+        """
+        gamma: discount rate; in (0, 1].
+        """
+    @property
+    def tau(self) -> float:
+        """
+        tau: intrinsic reward of a salient event that was not foreseen at all; in [0, 1e+06].
+        """
+    @property
+    def terminal_value(self) -> float:
+        """
+        What its event is worth to an option; in [-1e+06, 1e+06].
+        """
+
+class SalientEvents:
+    """
+    Skills from salient events (Singh, Barto & Chentanez 2004): an option for each event, which
+    is rewarding in itself while the option's model does not foresee it. Epsilon-greedy over
+    motions and options.
+
+    In a trial: Trial(world, agent=SalientEvents()). It is saved with its trial, pickled and copied.
+
+    Parameters: config, a SalientEventsConfig, also SalientEvents.Config (None: the defaults); seed of its draws.
+    Raises InvalidValue.
+    """
+
+    Config = SalientEventsConfig
+    def __getstate__(self) -> tuple[dict[str, typing.Any], typing.Any]: ...
+    def __init__(
+        self, config: SalientEventsConfig | None = None, seed: typing.SupportsIndex = 0
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: typing.Any) -> None: ...
+    def begin_round(self) -> None:
+        """
+        A round begins. As all that follow it: what a trial calls, for a loop of one's own.
+        """
+    def cancel(self) -> None:
+        """
+        The waiting choice was not made.
+        """
+    def choose(self, observation: Observation) -> devlearn._types.Choice:
+        """
+        A motion for what is observed. Raises InvalidValue, likewise while a choice waits for observe() or cancel().
+        """
+    def end_round(self, arrived: bool) -> None:
+        """
+        The round has ended, at the target or not.
+        """
+    def explain(self, situation: typing.SupportsIndex) -> SalientEventsExplanation | None:
+        """
+        What it makes of a situation, a SalientEventsExplanation; None for one never met. Draws and changes nothing. Raises InvalidValue.
+        """
+    def observe(self, outcome: Outcome) -> None:
+        """
+        What came of the choice. Raises InvalidValue.
+        """
+    def value(self, situation: typing.SupportsIndex, motion: typing.SupportsIndex) -> float | None:
+        """
+        The value of a motion in a situation; None for a situation never met. Raises InvalidValue.
+        """
+    @property
+    def config(self) -> SalientEventsConfig:
+        """
+        Its settings.
+        """
+    @property
+    def events(self) -> list[int]:
+        """
+        The events for which there is an option, in the order in which they first came.
+        """
+    @property
+    def intrinsic_reward(self) -> float:
+        """
+        Intrinsic reward of the last outcome, r_i.
+        """
+
 class Task:
     """
     An environment that is no world of the robot's: what all in devlearn.tasks have. An episode
@@ -3748,6 +3980,128 @@ class Task:
     def succeeded(self) -> bool:
         """
         Whether the episode that has ended ended well.
+        """
+
+class PlayroomConfig:
+    """
+    The settings of Playroom.
+
+    Raises InvalidValue.
+
+    Parameters
+    ----------
+    reward
+        r_e: reward where the monkey cries; in [-1e+06, 1e+06].
+    ending
+        Whether an episode ends where the monkey cries; true or false.
+    """
+    @staticmethod
+    def fields() -> dict[str, typing.Any]:
+        """
+        What each field is, by name: a dict of its symbol, unit, range, default and doc.
+        """
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> PlayroomConfig:
+        """
+        From a dict of fields; those left out keep their defaults. Raises InvalidValue for an unknown field.
+        """
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __init__(
+        self, reward: typing.SupportsFloat | typing.SupportsIndex = 1.0, ending: bool = True
+    ) -> None: ...
+    def __reduce__(self) -> tuple[typing.Any, ...]: ...
+    def __repr__(self) -> str: ...
+    def replace(self, **kwargs: typing.Any) -> PlayroomConfig:
+        """
+        A copy with some fields changed.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Its fields as a dict of plain values, as JSON can hold.
+        """
+    @property
+    def ending(self) -> bool:
+        """
+        Whether an episode ends where the monkey cries; true or false.
+        """
+    @property
+    def reward(self) -> float:
+        """
+        r_e: reward where the monkey cries; in [-1e+06, 1e+06].
+        """
+
+class Playroom(Task):
+    """
+    The playroom of Singh, Barto & Chentanez (2004): 5 x 5 squares, a light switch, a ball, a
+    bell, a blue and a red block that turn music on and off, and a toy monkey, which cries where
+    the bell rang in the dark with music on. The agent has an eye, a hand and a marker, and senses
+    what is in their squares, light, music and ringing. Motions, events and objects are numbered
+    as in MOTIONS, EVENTS and OBJECTS.
+
+    Parameters: config, a PlayroomConfig, also Playroom.Config (None: the defaults). Raises InvalidValue.
+    """
+
+    EVENTS: typing.ClassVar[tuple] = (
+        "light_on",
+        "light_off",
+        "music_on",
+        "music_off",
+        "bell_rings",
+        "monkey_cries",
+    )
+    MOTIONS: typing.ClassVar[tuple] = (
+        "eye_to_hand",
+        "eye_to_marker",
+        "eye_north",
+        "eye_south",
+        "eye_east",
+        "eye_west",
+        "eye_to_random_object",
+        "hand_to_eye",
+        "marker_to_eye",
+        "flick_switch",
+        "kick_ball",
+        "press_blue_block",
+        "push_blue_block",
+        "press_red_block",
+        "push_red_block",
+    )
+    OBJECTS: typing.ClassVar[tuple] = (
+        "switch",
+        "ball",
+        "bell",
+        "blue_block",
+        "red_block",
+        "monkey",
+    )
+    Config = PlayroomConfig
+    def __init__(self, config: PlayroomConfig | None = None) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def config(self) -> PlayroomConfig:
+        """
+        Its settings.
+        """
+    @property
+    def counts(self) -> dict[str, typing.Any]:
+        """
+        How often each event came in the episode, by name.
+        """
+    @property
+    def light(self) -> bool:
+        """
+        Whether it is light.
+        """
+    @property
+    def music(self) -> bool:
+        """
+        Whether there is music.
+        """
+    @property
+    def squares(self) -> dict[str, typing.Any]:
+        """
+        Where the eye, the hand, the marker and each object are, by name: (row, column), each 0 ... 4, row 0 in the north. Before an episode all are (0, 0).
         """
 
 class AttentionConfig:

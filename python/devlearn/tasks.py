@@ -10,6 +10,8 @@ from ._core import (
     BalanceConfig,
     Foraging,
     ForagingConfig,
+    Playroom,
+    PlayroomConfig,
     Task,
     TwoWheeledDef,
 )
@@ -22,6 +24,8 @@ __all__ = [
     "BalanceConfig",
     "Foraging",
     "ForagingConfig",
+    "Playroom",
+    "PlayroomConfig",
     "Task",
     "TwoWheeledDef",
     "run",

@@ -120,8 +120,10 @@ ODD = [
 
 # What is only had from a call has no constructor, and says so.
 RESULTS = {
-    "AdaptiveExplanation", "AdaptiveMemory", "BatchRows", "ChoiceTrace", "ConditioningExplanation",
+    "AdaptiveExplanation", "AdaptiveMemory", "AppraisalExplanation", "BatchRows", "ChoiceTrace",
+    "ConditioningExplanation",
     "Explanation", "MemoryUse", "Recollection", "ShortestPath", "SituationMemory", "Step", "Task",
+    "OptionView", "SalientEventsExplanation",
     "IacExplanation", "IacRegion",
 }  # fmt: skip
 

@@ -31,6 +31,7 @@ CONFIGS = [
     LearnerConfig, AdaptiveConfig, StateEvaluation, RobotDef, TrialConfig, agents.QLearning.Config,
     agents.ExpectedSarsa.Config, agents.SarsaLambda.Config, agents.DynaQ.Config,
     agents.PrioritizedSweeping.Config, agents.LrtaStar.Config, agents.RMax.Config,
+    agents.SalientEvents.Config, tasks.Playroom.Config,
     agents.OperantConditioning.Config, agents.Appraisal.Config, tasks.Foraging.Config,
     tasks.Balance.Config, tasks.TwoWheeledDef,
     BatchConfig, agents.Iac.Config, tasks.Attention.Config,
@@ -252,6 +253,18 @@ EXPECTED = {
         "axle": (NO, "m", "in [0.001, 1000] m", 0.2),
         "noise": (NO, "m", "in [0, 1000] m", 0.01),
         "steps": (NO, NO, WHOLE.format(1, 10**9), 5000),
+    },
+    agents.SalientEvents.Config: {
+        "alpha": ("alpha", NO, "in (0, 1]", 0.3),
+        "gamma": ("gamma", NO, "in (0, 1]", 0.9),
+        "epsilon": ("epsilon", NO, "in [0, 1]", 0.3),
+        "tau": ("tau", NO, "in [0, 1e+06]", 0.5),
+        "terminal_value": (NO, NO, "in [-1e+06, 1e+06]", 1.0),
+        "endings": (NO, NO, WHOLE.format(1, 1000000), 32),
+    },
+    tasks.Playroom.Config: {
+        "reward": ("r_e", NO, "in [-1e+06, 1e+06]", 1.0),
+        "ending": (NO, NO, "true or false", True),
     },
     BatchConfig: {
         "reward": (NO, NO, "'shaped' or 'cost' or 'smf' or 'sparse'", "shaped"),

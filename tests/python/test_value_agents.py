@@ -21,6 +21,7 @@ KINDS = {
     "lrta_star": agents.LrtaStar,
     "r_max": agents.RMax,
     "operant_conditioning": agents.OperantConditioning,
+    "salient_events": agents.SalientEvents,
     "appraisal": agents.Appraisal,
 }
 each_value_agent = pytest.mark.parametrize(
@@ -190,7 +191,7 @@ def test_settings_are_those_given_and_the_defaults_otherwise(agent):
         with pytest.raises(InvalidValue, match=r"Config\.first_value: got 'none'"):
             agent.Config(first_value="none")
     else:
-        changed = agent.Config(novelty=0.25)
+        changed = agent.Config(gamma=0.25)
     assert agent(changed).config == agent(config=changed, seed=5).config == changed
     assert repr(changed) in repr(agent(changed))
     with pytest.raises(InvalidValue, match=r"config: got 3; expected an? \w+Config or None"):

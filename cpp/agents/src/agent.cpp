@@ -13,6 +13,7 @@
 #include "devlearn/q_learning.hpp"
 #include "devlearn/r_max.hpp"
 #include "devlearn/random_agent.hpp"
+#include "devlearn/salient_events.hpp"
 #include "devlearn/sarsa_lambda.hpp"
 
 namespace devlearn {
@@ -38,8 +39,8 @@ std::shared_ptr<Agent> one_of(const AgentState& state, const std::string& source
 
 std::shared_ptr<Agent> make_agent(const AgentState& state, const std::string& source) {
   return one_of<LearnerAgent, AdaptiveAgent, RandomAgent, QLearning, ExpectedSarsa, SarsaLambda,
-                DynaQ, PrioritizedSweeping, LrtaStar, RMax, Iac, OperantConditioning, Appraisal>(
-      state, source);
+                DynaQ, PrioritizedSweeping, LrtaStar, RMax, Iac, OperantConditioning, SalientEvents,
+                Appraisal>(state, source);
 }
 
 }  // namespace devlearn

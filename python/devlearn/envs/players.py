@@ -24,6 +24,7 @@ from .._core import (
     Random,
     RandomAgent,
     RMax,
+    SalientEvents,
     SarsaLambda,
 )
 from .._types import Choice
@@ -38,6 +39,7 @@ _VALUE_AGENTS = (
     PrioritizedSweeping,
     LrtaStar,
     RMax,
+    SalientEvents,
     Appraisal,
 )
 

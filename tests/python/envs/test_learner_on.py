@@ -71,6 +71,7 @@ VALUE_AGENTS = [
     agents.LrtaStar,
     agents.RMax,
     agents.OperantConditioning,
+    agents.SalientEvents,
     agents.Appraisal,
 ]
 LEARNERS = {
