@@ -21,7 +21,8 @@ from devlearn.plots.panels import png
 HERE = Path(__file__).parent
 STEPS = 100_000
 EVERY = 1000  # steps between points of a curve
-SEEDS = range(1, 31)
+SEEDS = range(1, 31)  # of the table
+DRAWN = range(1, 11)  # of the picture
 NAMES = ("novelty", "motivation", "control", "valence", "external")
 EXTERNAL = (0, 0, 0, 0, 1)
 # The weights that the program of the scenarios' authors has in its comments.
@@ -34,7 +35,7 @@ PUBLISHED = {
     "lairs": (0.1, 0, -0.2, 0, 0.7),
 }
 # What the search below found, on other seeds, where those are not better than external reward.
-FOUND = {}
+FOUND = {"prey_season": (0, 0, -0.75, 0, 0.25)}
 
 
 def curve(job):
@@ -92,7 +93,10 @@ def show(pool):
     for scenario, agents_of in rows:
         if scenario in FOUND:
             agents_of["found"] = FOUND[scenario]
-    jobs = [(scenario, w, seed) for scenario, of in rows for w in of.values() for seed in SEEDS]
+    runs = [(scenario, weights) for scenario, of in rows for weights in of.values()]
+    jobs = [(*run, seed, STEPS) for run in runs for seed in SEEDS]
+    totals = dict(zip(runs, np.reshape(pool.map(total, jobs, chunksize=4), (len(runs), -1))))
+    jobs = [(*run, seed) for run in runs for seed in DRAWN]
     curves = dict(zip(jobs, pool.map(curve, jobs, chunksize=1)))
 
     figure, axes = plt.subplots(2, 3, figsize=(9.0, 5.0), layout="constrained")
@@ -104,10 +108,10 @@ def show(pool):
     for (scenario, of), ax in zip(rows, axes.flat):
         bands, alone = {}, None
         for name, weights in of.items():
-            each = np.array([curves[scenario, weights, seed] for seed in SEEDS])
-            low, middle, high = np.percentile(each, (5, 50, 95), axis=0)
+            each = np.array([curves[scenario, weights, seed] for seed in DRAWN])
+            low, middle, high = np.percentile(each, (0, 50, 100), axis=0)
             bands[name] = Band(steps, middle, low, high)
-            scores = each[:, -1]
+            scores = totals[scenario, weights]
             alone = scores if alone is None else alone
             more = statistics.bootstrap(
                 statistics.difference(statistics.mean), scores[:, None], alone[:, None], paired=True

@@ -14,6 +14,8 @@ void bind_foraging(py::module_& m) {
       "or the fence it stays. A\nsituation is 16 times the cell, numbered row by row, walls too, "
       "and what is there. The event of\na step is 0 if a prey was eaten. An episode has no end of "
       "its own.")
+      .def_property_readonly("situation_count", &Foraging::situation_count,
+                             "Situations have ids below this one.")
       .def(
           "drawn",
           [](const Foraging& self) {

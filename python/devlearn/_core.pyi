@@ -4982,6 +4982,11 @@ class Foraging(Task):
         """
         Its settings.
         """
+    @property
+    def situation_count(self) -> int:
+        """
+        Situations have ids below this one.
+        """
 
 class NoiseDef:
     """

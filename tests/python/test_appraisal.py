@@ -89,6 +89,7 @@ def test_a_foraging_grid_is_drawn_and_its_cell_is_the_situation(scenario):
     row = next(i for i, cells in enumerate(rows) if "F" in cells)
     cell = row * len(rows[0]) + rows[row].index("F")
     assert task.observation().situation // 16 == cell
+    assert task.situation_count == 16 * len(rows) * len(rows[0])
     assert task.motion_count == (6 if scenario == "lairs" else 4)
     assert repr(task) == f"<devlearn.tasks.Foraging: {task.config!r}>"
     assert not task.succeeded

@@ -124,26 +124,36 @@ double Appraisal::priority(Of of, std::size_t pair, double reward, Row next) con
 void Appraisal::learn(Of of, std::size_t pair, double reward, Row next) {
   std::vector<double>& mean_reward = reward_[of];
   mean_reward[pair] = mean(mean_reward[pair], reward, model_.visits(pair));
-  std::set<std::pair<double, std::size_t>> queue;  // less the priority, and the pair
+  // A heap of the priorities, and pairs; among equals the first of these.
+  std::vector<std::pair<double, std::size_t>> queue;
+  const auto later = [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : a.second > b.second;
+  };
   const auto add = [&](std::size_t one, double reward_of_it, Row to) {
     const double by = priority(of, one, reward_of_it, to);
-    if (by > config_.theta) queue.emplace(-by, one);
+    if (!(by > config_.theta)) return;
+    queue.emplace_back(by, one);
+    std::push_heap(queue.begin(), queue.end(), later);
   };
-  std::set<std::size_t> updated;
+  std::vector<std::size_t> updated;
   add(pair, reward, next);
   for (int i = 0; i < config_.planning_steps && !queue.empty();) {
-    const std::size_t first = queue.begin()->second;
-    queue.erase(queue.begin());
-    if (!updated.insert(first).second) continue;
+    std::pop_heap(queue.begin(), queue.end(), later);
+    const std::size_t first = queue.back().second;
+    queue.pop_back();
+    if (updated_[first]) continue;
+    updated_[first] = true;
+    updated.push_back(first);
     const Row to = model_.draw(first, table_.random());
     const double target = mean_reward[first] + config_.gamma * best(of, to);
     set(of, first, q(of, first) + config_.alpha * (target - q(of, first)));
     ++i;
     const auto row = static_cast<Row>(first / static_cast<std::size_t>(table_.motion_count()));
     for (const std::size_t before : model_.leading(row)) {
-      if (updated.count(before) == 0) add(before, mean_reward[before], row);
+      if (!updated_[before]) add(before, mean_reward[before], row);
     }
   }
+  for (const std::size_t one : updated) updated_[one] = false;
 }
 
 // --- the goal ------------------------------------------------------------------------------------
@@ -156,6 +166,7 @@ void Appraisal::fit() {
     each->resize(table_.pairs());
   }
   updates_.resize(table_.pairs());
+  updated_.resize(table_.pairs());
   distance_.resize(table_.rows(), -1);
   while (worth_.size() < table_.rows()) {
     ranked_.emplace(0.0, static_cast<Row>(worth_.size()));
@@ -174,9 +185,10 @@ void Appraisal::rank(Row row) {
     any = true;
   }
   if (worth == worth_[row]) return;
-  ranked_.erase({-worth_[row], row});
+  auto node = ranked_.extract({-worth_[row], row});
   worth_[row] = worth;
-  ranked_.emplace(-worth, row);
+  node.value() = {-worth, row};
+  ranked_.insert(std::move(node));
 }
 
 // The goal is the situation of the highest V_e, the first met among equals; none while all are

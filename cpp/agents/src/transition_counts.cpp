@@ -1,5 +1,7 @@
 #include "devlearn/detail/transition_counts.hpp"
 
+#include <algorithm>
+
 #include "agent_snapshot.hpp"
 
 namespace devlearn::detail {
@@ -13,8 +15,14 @@ bool TransitionCounts::learn(std::size_t pair, Row next) {
   if (visits_[pair] == kMost) return false;
   ++visits_[pair];
   const bool first = ++next_[pair][next] == 1;
-  if (first && next != kNoRow) leading_[next].insert(pair);
+  if (first) lead(pair, next);
   return first;
+}
+
+void TransitionCounts::lead(std::size_t pair, Row next) {
+  if (next == kNoRow) return;
+  std::vector<std::size_t>& pairs = leading_[next];
+  pairs.insert(std::lower_bound(pairs.begin(), pairs.end(), pair), pair);
 }
 
 Row TransitionCounts::draw(std::size_t pair, Random& random) const {
@@ -67,7 +75,7 @@ TransitionCounts::TransitionCounts(const ValueTable& table, const AgentState& st
                              "at least 1, once for where a pair led, and below 2^31 in all");
         }
         visits_[pair] += count;
-        if (rows[i] != kNoRow) leading_[rows[i]].insert(pair);
+        lead(pair, rows[i]);
         ++i;
       });
 }

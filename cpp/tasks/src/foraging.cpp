@@ -191,6 +191,10 @@ void Foraging::open(Lair& lair, int at, int motion) {
 
 // --- what is seen --------------------------------------------------------------------------------
 
+SituationId Foraging::situation_count() const noexcept {
+  return SituationId{columns()} * kRows * kContents;
+}
+
 SituationId Foraging::situation() const noexcept {
   int there =
       (fox_ == hare_ ? 1 : 0) + (fox_ == rabbit_ || fox_ == water_ ? 2 : 0) + (thirsty_ ? 4 : 0);

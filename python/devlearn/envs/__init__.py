@@ -46,3 +46,8 @@ gymnasium.register(
 gymnasium.register(
     "devlearn/Balance-v0", entry_point="devlearn.envs.task_env:TaskEnv", kwargs={"task": "Balance"}
 )
+gymnasium.register(
+    "devlearn/Foraging-v0",
+    entry_point="devlearn.envs.task_env:TaskEnv",
+    kwargs={"task": "Foraging"},
+)

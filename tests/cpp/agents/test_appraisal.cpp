@@ -205,7 +205,7 @@ TEST_CASE("a model draws where a motion leads as often as it led there") {
   CHECK_FALSE(model.learn(0, 2));
   CHECK(model.learn(0, detail::kNoRow));
   CHECK(model.visits(0) == 4);
-  CHECK(model.leading(2) == std::set<std::size_t>{0});
+  CHECK(model.leading(2) == std::vector<std::size_t>{0});
   Random random(1, "model");
   std::map<detail::Row, int> count;
   for (int i = 0; i < 8000; ++i) ++count[model.draw(0, random)];

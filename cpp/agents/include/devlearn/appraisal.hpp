@@ -173,6 +173,7 @@ class Appraisal final : public Agent {
   std::vector<double> external_;               // Q_e
   std::vector<double> change_;                 // mean |change| of Q_e
   std::vector<std::uint64_t> updates_;         // of Q_e
+  std::vector<bool> updated_;                  // of each pair, in the present sweep
   // What follows from these.
   std::vector<double> worth_;                // V_e of each row
   std::set<std::pair<double, Row>> ranked_;  // less V_e, and the row

@@ -72,6 +72,8 @@ class Foraging final : public Task {
   bool succeeded() const noexcept override { return false; }
 
   const Config& config() const noexcept { return config_; }  ///< its settings
+  /// Situations have ids below this one.
+  SituationId situation_count() const noexcept;
   /// The grid, a line a row: # a wall, F the fox, h a hare, r a rabbit, w water, = the fence, o a
   /// lair that is closed, O one with its rabbit out, . one that is empty. Throws InvalidValue where
   /// no episode is under way.

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -35,13 +34,15 @@ class TransitionCounts {
   std::uint32_t visits(std::size_t pair) const noexcept { return visits_[pair]; }
   /// One of the rows that a pair led to, by how often it did; it must have been tried.
   Row draw(std::size_t pair, Random& random) const;
-  /// Pairs that led to a row.
-  const std::set<std::size_t>& leading(Row row) const noexcept { return leading_[row]; }
+  /// Pairs that led to a row, in order.
+  const std::vector<std::size_t>& leading(Row row) const noexcept { return leading_[row]; }
 
  private:
+  void lead(std::size_t pair, Row next);
+
   std::vector<std::map<Row, std::uint32_t>> next_;  // of each pair
   std::vector<std::uint32_t> visits_;               // their sum
-  std::vector<std::set<std::size_t>> leading_;      // of each row
+  std::vector<std::vector<std::size_t>> leading_;   // of each row, in order
 };
 
 }  // namespace devlearn::detail
