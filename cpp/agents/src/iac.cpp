@@ -253,7 +253,7 @@ void append_bounds(std::string& text, const IacRegion& region) {
 
 void append_tree(std::string& text, const std::vector<IacRegion>& regions, int number, int depth) {
   const IacRegion& region = regions[static_cast<std::size_t>(number)];
-  text.append(static_cast<std::size_t>(2 * depth), ' ');
+  text.append(2 * static_cast<std::size_t>(depth), ' ');
   append(text, "%d: ", number);
   if (region.split_dimension >= 0) {
     append(text, "split after %llu at %.4g of dimension %d\n",

@@ -104,8 +104,9 @@ void Regions::learn(const double* point, const double* next) {
   Region& region = regions_[place];
   const std::vector<double> predicted = predict(region, point);
   if (!predicted.empty()) {
-    const auto needed = static_cast<std::size_t>(rules_.smoothing + 1 + rules_.window);
-    if (region.errors.size() == needed) region.errors.erase(region.errors.begin());
+    const int needed = rules_.smoothing + 1 + rules_.window;
+    if (static_cast<int>(region.errors.size()) == needed)
+      region.errors.erase(region.errors.begin());
     region.errors.push_back(squared_distance(next, predicted.data(), follows_));
     measure(region);
   }
