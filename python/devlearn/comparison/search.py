@@ -64,22 +64,6 @@ SEARCHED: Mapping[str, Mapping[str, Sequence[Any]]] = {
         "penalty_step": (0.0, 0.001, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5),
         "reinforced_by": ("smf", "reward"),
     },
-    "SalientEvents": {
-        "alpha": (0.05, 0.1, 0.3, 0.5, 0.7),
-        "gamma": (0.9, 0.95, 0.99, 0.995),
-        "epsilon": (0.003, 0.01, 0.03, 0.1, 0.3),
-        "tau": (0.1, 0.5, 1.0, 10.0),
-    },
-    "Appraisal": {
-        "novelty": (-0.3, 0.0, 0.3),
-        "motivation": (0.0, 0.3),
-        "control": (-0.3, 0.0, 0.3),
-        "valence": (0.0, 0.3),
-        "external": (0.3, 0.7, 1.0),
-        "alpha": (0.1, 0.3, 0.5),
-        "gamma": (0.9, 0.99),
-        "epsilon_decay": (1.0001, 1.001, 1.01),
-    },
 }
 
 
