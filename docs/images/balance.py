@@ -1,10 +1,10 @@
 """Runs the study of docs/balance.md, prints its tables and draws its pictures.
 
     python docs/images/balance.py --search     # settings, on seeds 1000 to 1003
-    python docs/images/balance.py              # the study, on seeds 0 to 99
+    python docs/images/balance.py [100]        # the study, on seeds 0 to 99
 
-Trials are kept in out/balance, so that tables and pictures are made again without them. Pictures
-are written beside this file.
+Runs are kept in out/balance, so that it goes on where it was stopped, and tables and pictures are
+made again without them. Pictures are written beside this file.
 """
 
 import os
@@ -28,12 +28,13 @@ from devlearn.experiments import statistics
 from devlearn.plots.bands import Band
 from devlearn.plots.panels import panels, png
 from devlearn.plots.style import BLUE, STYLE, VERMILLION
+from devlearn.record import written_aside
 from matplotlib import rc_context
 
 HERE = Path(__file__).parent
 OUT = Path("out/balance")
 TRIALS, LAST = 300, 20
-SEEDS, OTHER_SEEDS, TRIES = range(100), range(1000, 1004), 12
+OTHER_SEEDS, TRIES = range(1000, 1004), 12
 SAMPLE_TIME = tasks.Balance.Config().sample_time
 UPRIGHT_ALONE = tasks.Balance.Config(sef_rate=0.0, sef_wheel_rate=0.0)
 
@@ -134,7 +135,7 @@ def _job(job):
 def all_trials(jobs):
     """Of many, on all processors."""
     with ProcessPoolExecutor(int(os.environ.get("DEVLEARN_JOBS", os.cpu_count()))) as pool:
-        return np.array(list(pool.map(_job, jobs, chunksize=4)))
+        return np.array(list(pool.map(_job, jobs)))
 
 
 def search():
@@ -148,13 +149,29 @@ def search():
         print(f"    {name!r}: {tried[best]},  # {means[best]:.1f} s, the defaults {means[0]:.1f} s")
 
 
-def kept(name, config=None, mark=""):
-    """What became of each trial of the study, seeds x trials."""
-    file = OUT / f"{name}{mark}.npy"
+def file_of(party, seed):
+    """Where a run of the study is kept."""
+    name, mark = party
+    return OUT / f"{name}{mark}" / f"{seed}.npy"
+
+
+def _keep(job):
+    party, seed = job
+    name, mark = party
+    file = file_of(party, seed)
     if not file.exists():
-        OUT.mkdir(parents=True, exist_ok=True)
-        np.save(file, all_trials([(name, SETTINGS[name], seed, config) for seed in SEEDS]))
-    return np.load(file)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        found = trials(name, SETTINGS[name], seed, UPRIGHT_ALONE if mark else None)
+        with written_aside(file, "wb") as into:
+            np.save(into, found)
+
+
+def kept(parties, seeds):
+    """What became of each trial of the study: of each party an array, seeds x trials."""
+    jobs = [(party, seed) for seed in seeds for party in parties]
+    with ProcessPoolExecutor(int(os.environ.get("DEVLEARN_JOBS", os.cpu_count()))) as pool:
+        list(pool.map(_keep, jobs))
+    return {party: np.array([np.load(file_of(party, seed)) for seed in seeds]) for party in parties}
 
 
 def told(estimate, write):
@@ -181,16 +198,20 @@ HEAD = """| | first trial that stands 60 s, median | ever, of the runs | last 20
 | --- | --- | --- | --- | --- |"""  # noqa: E501
 
 
-def study():
+def study(seeds):
     """Prints the tables and draws."""
-    episodes = {name: kept(name) for name in PARTIES}
-    print(HEAD)
-    for name, of_each in episodes.items():
-        print(row(name, of_each))
-    print("\nSEF of the angle alone:\n\n" + HEAD)
-    for name in ("paper", "step5", "OperantConditioning"):
-        print(row(name, kept(name, UPRIGHT_ALONE, ", angle alone")))
-    (HERE / "balance_curves.png").write_bytes(curves(episodes))
+    usual = [(name, "") for name in PARTIES]
+    alone = [(name, ", angle alone") for name in ("paper", "step5", "OperantConditioning")]
+    episodes = kept([*usual, *alone], seeds)
+    print(f"seeds {seeds[0]} to {seeds[-1]}\n\n{HEAD}")
+    for party in usual:
+        print(row(party[0], episodes[party]))
+    print(f"\nSEF of the angle alone:\n\n{HEAD}")
+    for party in alone:
+        print(row(party[0], episodes[party]))
+    (HERE / "balance_curves.png").write_bytes(
+        curves({name: episodes[name, mark] for name, mark in usual})
+    )
     (HERE / "balance_trace.png").write_bytes(traces())
 
 
@@ -236,7 +257,7 @@ def traces(seed=0):
         ):
             above, below = axes[column], axes[2 + column]
             above.plot(time, angle, color=VERMILLION, linewidth=0.7)
-            above.set(title=title, ylabel="angle [degrees]", ylim=(-16, 16))
+            above.set(title=title, ylabel="angle [degrees]", ylim=(-20, 20))
             for limit in (-15, 15):
                 above.axhline(limit, color="0.6", linewidth=0.6, linestyle=":")
             below.plot(time, rolled, color=BLUE, linewidth=0.7)
@@ -245,4 +266,7 @@ def traces(seed=0):
 
 
 if __name__ == "__main__":
-    search() if "--search" in sys.argv[1:] else study()
+    if "--search" in sys.argv[1:]:
+        search()
+    else:
+        study(range(int(sys.argv[1]) if sys.argv[1:] else 100))
