@@ -21,6 +21,11 @@ void bind_attention(py::module_& m) {
       "Nothing\n"
       "is to be reached, and a step costs nothing: what matters is where attention goes.")
       .def_property_readonly(
+          "situation_count", &Attention::situation_count,
+          "Situations are tenths of the room's side, of the distance: 0 ... situation_count - 1, "
+          "the "
+          "last for all beyond.")
+      .def_property_readonly(
           "motors",
           [](const Attention& self) {
             return moved_array<double>(std::vector<double>(self.motors().values),

@@ -4234,6 +4234,11 @@ class Attention(Task):
         Where the robot is: a Pose [m, m, degrees].
         """
     @property
+    def situation_count(self) -> int:
+        """
+        Situations are tenths of the room's side, of the distance: 0 ... situation_count - 1, the last for all beyond.
+        """
+    @property
     def toy(self) -> tuple[float, float]:
         """
         Where the toy is [m].

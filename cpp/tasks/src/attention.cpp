@@ -34,7 +34,8 @@ void Attention::begin(std::uint64_t seed) {
 Observation Attention::observation() const {
   require_under_way("observation");
   Observation seen;
-  seen.situation = static_cast<SituationId>(std::max(0.0, 10.0 * distance_ / config_.side));
+  seen.situation = static_cast<SituationId>(
+      std::clamp(10.0 * distance_ / config_.side, 0.0, static_cast<double>(situation_count() - 1)));
   seen.motion_count = motion_count();
   seen.senses = {&distance_, 1};
   return seen;

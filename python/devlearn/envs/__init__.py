@@ -44,6 +44,11 @@ gymnasium.register(
     vector_entry_point="devlearn.envs.navigate_vector:NavigateVector",
 )
 gymnasium.register(
+    "devlearn/Attention-v0",
+    entry_point="devlearn.envs.task_env:TaskEnv",
+    kwargs={"task": "Attention"},
+)
+gymnasium.register(
     "devlearn/Balance-v0", entry_point="devlearn.envs.task_env:TaskEnv", kwargs={"task": "Balance"}
 )
 gymnasium.register(

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -166,6 +167,8 @@ TEST_CASE("an episode follows from its seed and ends after its steps") {
     CHECK(outcome.arrived == (i == 300));
     CHECK(outcome.reward() == 0.0);
     if (i < 300) CHECK(task.observation().situation == outcome.situation);
+    const double tenths = std::floor(10.0 * std::max(0.0, task.distance()));
+    CHECK(outcome.situation == std::min(14.0, tenths));
   }
   CHECK(task.succeeded());
   check_refusal([&] { task.step(0); }, "step");

@@ -11,7 +11,7 @@ from devlearn import agents, tasks
 from devlearn.envs import LearnerOn, TaskEnv
 from gymnasium.utils.env_checker import check_env
 
-IDS = ["devlearn/Balance-v0", "devlearn/Foraging-v0"]
+IDS = ["devlearn/Attention-v0", "devlearn/Balance-v0", "devlearn/Foraging-v0"]
 
 
 @pytest.mark.parametrize("name", IDS)

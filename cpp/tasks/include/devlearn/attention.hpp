@@ -59,8 +59,7 @@ inline bool operator!=(const AttentionConfig& a, const AttentionConfig& b) noexc
 ///     else        it jumps to the robot: the distance is 0
 ///
 /// Nothing is to be reached, and a step costs nothing: what matters is where attention goes. An
-/// episode begins with all in random places and ends after Config::steps. Situations are tenths of
-/// the room's side, of the distance that is sensed.
+/// episode begins with all in random places and ends after Config::steps.
 class Attention final : public Task {
  public:
   using Config = AttentionConfig;  ///< its settings
@@ -81,6 +80,9 @@ class Attention final : public Task {
   /// Whether an episode has ended: nothing can go wrong.
   bool succeeded() const noexcept override { return left_ == 0; }
 
+  /// Situations are 0 ... situation_count() - 1: tenths of the room's side, of what is sensed; the
+  /// last one is also all beyond.
+  SituationId situation_count() const noexcept { return 15; }
   const Config& config() const noexcept { return config_; }  ///< its settings
   /// (l, r, f) of each motion; f varies fastest.
   const Motors& motors() const noexcept { return motors_; }
