@@ -120,12 +120,12 @@ TEST_CASE("what can be done with an object is allowed where eye and hand are on 
     state.eye = state.hand = state.objects[object];
     room.place(state);
     const Observation seen = room.observation();
-    std::set<int> allowed;
+    std::set<int> found;
     for (int motion = Playroom::kFlickSwitch; motion < Playroom::kMotions; ++motion) {
-      if (seen.allowed(motion)) allowed.insert(motion);
+      if (seen.allowed(motion)) found.insert(motion);
     }
     for (int motion = 0; motion < Playroom::kFlickSwitch; ++motion) CHECK(seen.allowed(motion));
-    return allowed;
+    return found;
   };
   using Set = std::set<int>;
   CHECK(allowed(Playroom::kSwitch) == Set{Playroom::kFlickSwitch});
