@@ -51,10 +51,12 @@ void bind_playroom(py::module_& m) {
   cls.attr("MOTIONS") = names<Playroom::Motion>(Playroom::kMotions);
   cls.attr("EVENTS") = names<Playroom::Event>(Playroom::kEvents);
   cls.attr("OBJECTS") = names<Playroom::Object>(Playroom::kObjects);
-  cls.def_property_readonly(
-         "squares", [](const Playroom& self) { return squares_of(idle(self)); },
-         "Where the eye, the hand, the marker and each object are, by name: (row, column), each 0 "
-         "... 4, row 0 in the north. Before an episode all are (0, 0).")
+  cls.def_property_readonly("situation_count", &Playroom::situation_count,
+                            "Situations are 0 ... situation_count - 1.")
+      .def_property_readonly(
+          "squares", [](const Playroom& self) { return squares_of(idle(self)); },
+          "Where the eye, the hand, the marker and each object are, by name: (row, column), each 0 "
+          "... 4, row 0 in the north. Before an episode all are (0, 0).")
       .def_property_readonly(
           "counts",
           [](const Playroom& self) {

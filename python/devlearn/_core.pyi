@@ -3840,7 +3840,7 @@ class SalientEventsConfig:
     def __hash__(self) -> int: ...
     def __init__(
         self,
-        alpha: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        alpha: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         gamma: typing.SupportsFloat | typing.SupportsIndex = 0.9,
         epsilon: typing.SupportsFloat | typing.SupportsIndex = 0.3,
         tau: typing.SupportsFloat | typing.SupportsIndex = 0.5,
@@ -4097,6 +4097,11 @@ class Playroom(Task):
     def music(self) -> bool:
         """
         Whether there is music.
+        """
+    @property
+    def situation_count(self) -> int:
+        """
+        Situations are 0 ... situation_count - 1.
         """
     @property
     def squares(self) -> dict[str, typing.Any]:

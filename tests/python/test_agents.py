@@ -705,9 +705,9 @@ def test_the_guides_code_runs_and_its_agent_is_saved_as_it_stands(tmp_path, monk
     assert (again.agent.values == trial.agent.values).all()
     assert differences(again.run(200), trial.run(200)) == []
     exec(textbook, names)
+    assert names["agent"].value(int(names["paths"].situation[0]), 2) < 0.0
     exec(conditioning, names)
     assert names["agent"].mean_entropy() < np.log2(5)
-    assert names["agent"].value(int(names["paths"].situation[0]), 2) < 0.0
     exec(by_hand, names)
     assert names["agent"].value(19, 1) == pytest.approx(-1.0)
 

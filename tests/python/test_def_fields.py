@@ -255,7 +255,7 @@ EXPECTED = {
         "steps": (NO, NO, WHOLE.format(1, 10**9), 5000),
     },
     agents.SalientEvents.Config: {
-        "alpha": ("alpha", NO, "in (0, 1]", 0.3),
+        "alpha": ("alpha", NO, "in (0, 1]", 0.1),
         "gamma": ("gamma", NO, "in (0, 1]", 0.9),
         "epsilon": ("epsilon", NO, "in [0, 1]", 0.3),
         "tau": ("tau", NO, "in [0, 1e+06]", 0.5),

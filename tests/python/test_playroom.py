@@ -58,8 +58,8 @@ def test_a_run_in_pieces_goes_as_in_one_call_before_and_after_pickling():
 
 
 def test_in_a_trial_arrivals_and_touches_are_its_events():
-    agent = agents.SalientEvents(seed=1)
-    Trial(World.load("empty"), agent=agent).path_learning(rounds=3, step_limit=3000)
+    agent = agents.SalientEvents(agents.SalientEvents.Config(epsilon=1.0), seed=1)
+    Trial(World.load("empty"), agent=agent).path_learning(rounds=3, step_limit=20_000)
     assert sorted(agent.events) == [0, 1]
 
 

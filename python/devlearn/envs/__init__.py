@@ -52,6 +52,11 @@ gymnasium.register(
     "devlearn/Balance-v0", entry_point="devlearn.envs.task_env:TaskEnv", kwargs={"task": "Balance"}
 )
 gymnasium.register(
+    "devlearn/Playroom-v0",
+    entry_point="devlearn.envs.task_env:TaskEnv",
+    kwargs={"task": "Playroom"},
+)
+gymnasium.register(
     "devlearn/Foraging-v0",
     entry_point="devlearn.envs.task_env:TaskEnv",
     kwargs={"task": "Foraging"},

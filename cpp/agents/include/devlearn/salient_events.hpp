@@ -13,7 +13,7 @@ namespace devlearn {
 
 /// The settings of SalientEvents.
 struct SalientEventsConfig {
-  double alpha = 0.3;
+  double alpha = 0.1;
   double gamma = 0.9;
   double epsilon = 0.3;
   double tau = 0.5;

@@ -106,6 +106,8 @@ class Playroom final : public Task {
   bool succeeded() const noexcept override { return succeeded_; }
 
   const Config& config() const noexcept { return config_; }  ///< its settings
+  /// Situations are 0 ... situation_count - 1.
+  SituationId situation_count() const noexcept { return SituationId{1} << (3 * kObjects + 3); }
   /// Where everything is; before an episode in the north-western square.
   const State& state() const noexcept { return state_; }
   /// How often each event came in the episode, by Event.
