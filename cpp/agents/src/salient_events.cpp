@@ -16,7 +16,7 @@ using detail::ValueTable;
 
 namespace {
 
-constexpr int kMostEvents = 64;  // what a mask of 64 bits holds
+static_assert(kEventCount <= 64, "a mask of 64 bits has one for each option");
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 constexpr ValueTable::Rules rules(const SalientEventsConfig& config) {
@@ -83,7 +83,7 @@ int SalientEvents::draw_greedy(int whose, Row row) {
 // --- learning: the lines of Figure 2, NIPS 2004, in their order ----------------------------------
 
 Development SalientEvents::observe(const Outcome& outcome) {
-  require_count("event", outcome.event, -1, kMostEvents - 1);
+  require_count("event", outcome.event, -1, kEventCount - 1);
   const auto [s, a, r_e, next] = table_.observe(outcome);
   const double alpha = config_.alpha, gamma = config_.gamma;
   fit();
@@ -371,11 +371,11 @@ SalientEvents::SalientEvents(const AgentState& state, const std::string& source)
   const auto count = entry_of<std::uint64_t>(state, "options", source);
   made_of(source, [&] {
     require_count("options", static_cast<long long>(std::min<std::uint64_t>(count, 1000)), 0,
-                  rows == 0 ? 0 : kMostEvents);
+                  rows == 0 ? 0 : kEventCount);
     ValueTable::require_bounded("intrinsic_reward", intrinsic_reward_);
   });
   values_of<int>(state, "event", {count}, source, [&](const char* name, int event) {
-    require_count(name, event, 0, kMostEvents - 1);
+    require_count(name, event, 0, kEventCount - 1);
     if (option_for(event) < options()) {
       throw InvalidValue(name, std::to_string(event), "each event once");
     }
