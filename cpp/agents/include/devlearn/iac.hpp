@@ -56,17 +56,18 @@ inline bool operator!=(const IacConfig& a, const IacConfig& b) noexcept { return
 
 /// A region of the sensorimotor space.
 struct IacRegion {
-  int region = 0;              ///< its number, in the order in which they came to be; 0: all
-  int parent = -1;             ///< which was split into this one and another; -1: none
-  std::vector<double> lower;   ///< its bounds in each dimension of SM, first S, then M: not below
-  std::vector<double> upper;   ///< below; -inf and inf where it has none
-  std::uint64_t since = 0;     ///< exemplars that had been learned when it came to be
-  int exemplars = 0;           ///< that it holds now
-  double error = 0.0;          ///< <e>, mean of its latest theta + 1 squared errors; NaN: none yet
-  double progress = 0.0;       ///< L, Eq. 2
-  int split_dimension = -1;    ///< by which it was split; -1: it was not, and holds its exemplars
-  double split_value = 0.0;    ///< where
-  int below = -1, above = -1;  ///< the two regions that it was split into
+  int region = 0;             ///< its number, in the order in which they came to be; 0: all
+  int parent = -1;            ///< which was split into this one and another; -1: none
+  std::vector<double> lower;  ///< its bounds in each dimension of SM, first S, then M: not below
+  std::vector<double> upper;  ///< below; -inf and inf where it has none
+  std::uint64_t since = 0;    ///< exemplars that had been learned when it came to be
+  int exemplars = 0;          ///< that it holds now
+  double error = 0.0;         ///< mean of its latest theta + 1 squared errors, Eq. 1; NaN: none yet
+  double progress = 0.0;      ///< L, Eq. 2
+  int split_dimension = -1;   ///< by which it was split; -1: it was not, and holds its exemplars
+  double split_value = 0.0;   ///< where
+  int below = -1;             ///< the region that it was split into, of what is below split_value,
+  int above = -1;             ///< and of what is not
 };
 
 /// Why motions are chosen for what is observed.

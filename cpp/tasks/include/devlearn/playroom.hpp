@@ -81,19 +81,24 @@ class Playroom final : public Task {
   static const char* name(Motion motion) noexcept;  ///< `eye_to_hand` ...
   static const char* name(Event event) noexcept;    ///< `light_on` ...
 
-  /// A square, row and column 0 ... 4; row 0 is the northern one.
+  /// A square.
   struct Square {
-    int row = 0, column = 0;
+    int row = 0;     ///< 0 ... 4 from the north
+    int column = 0;  ///< 0 ... 4 from the west
+    /// Whether they are the same.
     friend bool operator==(const Square& a, const Square& b) noexcept {
       return a.row == b.row && a.column == b.column;
     }
   };
   /// Where everything is.
   struct State {
-    Square eye, hand, marker;
+    Square eye;                            ///< where the agent looks
+    Square hand;                           ///< where its hand is
+    Square marker;                         ///< where its visual marker is
     std::array<Square, kObjects> objects;  ///< by Object
-    bool light = false, music = false;
-    bool ringing = false;  ///< whether the bell rang in the last step
+    bool light = false;                    ///< whether it is on
+    bool music = false;                    ///< whether it plays
+    bool ringing = false;                  ///< whether the bell rang in the last step
   };
 
   /// Throws InvalidValue.
