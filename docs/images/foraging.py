@@ -16,7 +16,7 @@ import numpy as np
 from devlearn import agents, tasks
 from devlearn.experiments import statistics
 from devlearn.plots.bands import Band, plot_bands
-from devlearn.plots.panels import png
+from devlearn.plots.panels import png, shared_legend
 
 HERE = Path(__file__).parent
 STEPS = 100_000
@@ -25,6 +25,7 @@ SEEDS = range(1, 31)  # of the table
 DRAWN = range(1, 11)  # of the picture
 NAMES = ("novelty", "motivation", "control", "valence", "external")
 EXTERNAL = (0, 0, 0, 0, 1)
+ALONE = "external reward alone"
 # The weights that the program of the scenarios' authors has in its comments.
 PUBLISHED = {
     "moving_preys": (0.4, 0, -0.1, 0.2, -0.3),
@@ -87,12 +88,12 @@ def written(estimate, digits):
 def show(pool):
     """The table, and the picture."""
     rows = [
-        (scenario, {"external": EXTERNAL, "published": PUBLISHED[scenario]})
+        (scenario, {ALONE: EXTERNAL, "weights of the authors' program": PUBLISHED[scenario]})
         for scenario in PUBLISHED
     ]
     for scenario, agents_of in rows:
         if scenario in FOUND:
-            agents_of["found"] = FOUND[scenario]
+            agents_of["weights found here"] = FOUND[scenario]
     runs = [(scenario, weights) for scenario, of in rows for weights in of.values()]
     jobs = [(*run, seed, STEPS) for run in runs for seed in SEEDS]
     totals = dict(zip(runs, np.reshape(pool.map(total, jobs, chunksize=4), (len(runs), -1))))
@@ -104,13 +105,13 @@ def show(pool):
         "| scenario | weights n, m, c, v, e | sum of rewards | more than by external reward alone |"
     )
     print("|---|---|---|---|")
-    steps = np.arange(0, STEPS + 1, EVERY)
+    thousands = np.arange(0, STEPS + 1, EVERY) / 1000
     for (scenario, of), ax in zip(rows, axes.flat):
         bands, alone = {}, None
         for name, weights in of.items():
             each = np.array([curves[scenario, weights, seed] for seed in DRAWN])
             low, middle, high = np.percentile(each, (0, 50, 100), axis=0)
-            bands[name] = Band(steps, middle, low, high)
+            bands[name] = Band(thousands, middle, low, high)
             scores = totals[scenario, weights]
             alone = scores if alone is None else alone
             more = statistics.bootstrap(
@@ -118,12 +119,13 @@ def show(pool):
             )
             print(
                 f"| `{scenario}` | {', '.join(f'{w:g}' for w in weights)} "
-                f"| {written(statistics.estimate_mean(scores), 0)} "
-                f"| {'' if name == 'external' else written(more, 0)} |"
+                f"| {written(statistics.estimate_mean(scores[:, None]), 0)} "
+                f"| {'' if name == ALONE else written(more, 0)} |"
             )
-        plot_bands(bands, ax=ax, log="", xlabel="steps", ylabel="sum of rewards")
+        plot_bands(bands, ax=ax, log="", xlabel="1000 steps", ylabel="sum of rewards")
         ax.set_title(scenario)
-    (HERE / "foraging.png").write_bytes(png(figure))
+    shared_legend(figure, list(axes.flat))
+    (HERE / "foraging.png").write_bytes(png(axes.flat[0]))
 
 
 if __name__ == "__main__":
