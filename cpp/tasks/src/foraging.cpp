@@ -216,7 +216,8 @@ std::string Foraging::drawn() const {
   put(fence_, '=');
   for (std::size_t i = 0; i < 2; ++i) put(lair_at_[i], "o.O"[static_cast<int>(lair_[i])]);
   put(fox_, 'F');
-  for (int row = kRows; row-- > 0;) cells.insert(cells.begin() + (row + 1) * columns(), '\n');
+  const auto width = static_cast<std::size_t>(columns());
+  for (std::size_t row = kRows; row > 0; --row) cells.insert(row * width, 1, '\n');
   return cells;
 }
 
