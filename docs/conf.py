@@ -110,6 +110,9 @@ def edit_docstring(app, what, name, documented, options, lines):
     """Refuses (with -W) a public name without a docstring."""
     if not any(lines):
         logging.getLogger(__name__).warning("%s has no docstring", name)
+    if what in ("attribute", "property") and lines:
+        # "eta: what it is": what stands before a colon is its symbol, no type to be linked to.
+        lines[0] = re.sub(r"^([A-Za-z_]+): ", r"``\1``, ", lines[0])
     lines[:] = as_rst(lines)
 
 
