@@ -3958,7 +3958,7 @@ class Task:
     likes. Not while another thread's run has it in hand.
     """
 
-    interrupted: devlearn.record.Record | None
+    interrupted: numpy.typing.NDArray[numpy.void] | None
     def begin(self, seed: typing.SupportsIndex = 0) -> None:
         """
         An episode begins, whatever was before. All that is by chance in it follows from seed, in [0, 2**64 - 1]. Raises InvalidValue.
@@ -4042,7 +4042,7 @@ class Playroom(Task):
     Parameters: config, a PlayroomConfig, also Playroom.Config (None: the defaults). Raises InvalidValue.
     """
 
-    EVENTS: typing.ClassVar[tuple] = (
+    EVENTS: typing.ClassVar[tuple[str, ...]] = (
         "light_on",
         "light_off",
         "music_on",
@@ -4050,7 +4050,7 @@ class Playroom(Task):
         "bell_rings",
         "monkey_cries",
     )
-    MOTIONS: typing.ClassVar[tuple] = (
+    MOTIONS: typing.ClassVar[tuple[str, ...]] = (
         "eye_to_hand",
         "eye_to_marker",
         "eye_north",
@@ -4067,7 +4067,7 @@ class Playroom(Task):
         "press_red_block",
         "push_red_block",
     )
-    OBJECTS: typing.ClassVar[tuple] = (
+    OBJECTS: typing.ClassVar[tuple[str, ...]] = (
         "switch",
         "ball",
         "bell",
