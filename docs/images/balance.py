@@ -257,7 +257,7 @@ def traces(seed=0):
         ):
             above, below = axes[column], axes[2 + column]
             above.plot(time, angle, color=VERMILLION, linewidth=0.7)
-            above.set(title=title, ylabel="angle [degrees]", ylim=(-20, 20))
+            above.set(title=title, ylabel="angle [degrees]", ylim=(-16, 16))
             for limit in (-15, 15):
                 above.axhline(limit, color="0.6", linewidth=0.6, linestyle=":")
             below.plot(time, rolled, color=BLUE, linewidth=0.7)
