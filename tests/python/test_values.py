@@ -6,7 +6,7 @@ import pickle
 import devlearn
 import numpy as np
 import pytest
-from devlearn import Robot, RobotDef, Trial, World, _core, agents
+from devlearn import Robot, RobotDef, Trial, World, _core, agents, tasks
 
 
 class Keeper:
@@ -29,6 +29,26 @@ def kept():
 
 
 VALUE_AGENTS = [agent for agent in vars(agents).values() if hasattr(agent, "Config")]
+TASKS = [task for task in vars(tasks).values() if hasattr(task, "Config")]
+
+
+def explanations():
+    """What the agents that explain themselves say in their tasks."""
+    attention = tasks.Attention()
+    for task, agent in (
+        (attention, agents.Iac(motors=attention.motors)),
+        (tasks.Balance(), agents.OperantConditioning()),
+        (tasks.Playroom(), agents.SalientEvents()),
+        (tasks.Foraging(), agents.Appraisal()),
+    ):
+        tasks.run(task, agent, 1, step_limit=2000)
+        task.begin(seed=1)
+        seen = task.observation()
+        agent.choose(seen)
+        agent.cancel()
+        why = agent.explain(seen if isinstance(agent, agents.Iac) else seen.situation)
+        yield why
+        yield from getattr(why, "options", getattr(why, "regions", []))[:1]
 
 
 def things():
@@ -55,7 +75,8 @@ def things():
             devlearn.AdaptiveConfig(), adaptive.learner.last_choice,
             adaptive.learner.situation(760), adaptive.learner.last_choice.recollections[0],
             trial.learner.memory_use, keeper.observation, keeper.outcome, trial.run(3),
-            *(agent.Config() for agent in VALUE_AGENTS),
+            *(agent.Config() for agent in VALUE_AGENTS), *(task.Config() for task in TASKS),
+            tasks.TwoWheeledDef(), *explanations(),
         )
     }  # fmt: skip
 
@@ -145,5 +166,5 @@ def test_every_class_of_the_module_is_among_these():
     classes = {n for n, c in vars(_core).items() if isinstance(c, type) and not n.startswith("_")}
     others = {"Kind", "Event", "Learner", "Trial", "RandomAgent", "ShortestPath", "SituationMemory"}
     others |= {"AdaptiveLearner", "ShortestPathAgent", "Tally", "Batch", "BatchRows"}
-    others |= {*(agent.__name__ for agent in VALUE_AGENTS)}
+    others |= {"Task", *(one.__name__ for one in (*VALUE_AGENTS, *TASKS))}
     assert classes <= {*THINGS, *others}
