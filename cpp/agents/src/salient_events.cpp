@@ -163,7 +163,7 @@ int SalientEvents::make_option(int event) {
   return options() - 1;
 }
 
-// Room for all situations met, and all options.
+// Room for all situations met, and all options: whenever there are more of either.
 void SalientEvents::fit() {
   const std::size_t rows = table_.rows();
   const auto fit_values = [&](Values& values, std::size_t pairs) {
@@ -266,8 +266,6 @@ int SalientEvents::first_motion(int number, Row row) const {
 std::optional<SalientEventsExplanation> SalientEvents::explain(SituationId situation) const {
   const std::optional<std::size_t> found = table_.find(situation, 0);
   if (!found) return std::nullopt;
-  SalientEvents all = *this;  // also of situations met since the last choice
-  all.fit();
   const auto row = static_cast<Row>(*found / static_cast<std::size_t>(table_.motion_count()));
   SalientEventsExplanation why;
   why.situation = situation;
@@ -276,7 +274,7 @@ std::optional<SalientEventsExplanation> SalientEvents::explain(SituationId situa
     why.value.push_back(table_.q(table_.pair(row, motion)));
   }
   for (int number = 0; number < options(); ++number) {
-    const Option& o = all.option(number);
+    const Option& o = option(number);
     OptionView view;
     view.event = o.event;
     view.available = o.initiation[row] != 0;
@@ -286,8 +284,8 @@ std::optional<SalientEventsExplanation> SalientEvents::explain(SituationId situa
       expected = std::max(expected, ending.probability);
     }
     view.intrinsic = intrinsic(expected);
-    view.value = all.q(kBehaviour, row, table_.motion_count() + number);
-    if (view.available) view.motion = all.first_motion(number, row);
+    view.value = q(kBehaviour, row, table_.motion_count() + number);
+    if (view.available) view.motion = first_motion(number, row);
     why.options.push_back(view);
   }
   for (const int number : running_) why.running.push_back(option(number).event);
@@ -317,8 +315,6 @@ std::string to_text(const SalientEventsExplanation& why) {
 // --- states --------------------------------------------------------------------------------------
 
 std::optional<AgentState> SalientEvents::state() const {
-  SalientEvents all = *this;  // also of situations met since the last outcome
-  all.fit();
   AgentState state = state_of(kKind, config_);
   table_.describe(state);
   const std::uint64_t rows = table_.rows(), count = options_.size();
@@ -334,8 +330,8 @@ std::optional<AgentState> SalientEvents::state() const {
   const auto add = [](auto& all_of_them, const auto& more) {
     all_of_them.insert(all_of_them.end(), more.begin(), more.end());
   };
-  for (const auto& values : all.behaviour_.options) add(of_options, values);
-  for (const Option& each : all.options_) {
+  for (const auto& values : behaviour_.options) add(of_options, values);
+  for (const Option& each : options_) {
     add(initiation, each.initiation);
     add(of_motions, each.values.motions);
     for (const auto& values : each.values.options) add(of_options, values);

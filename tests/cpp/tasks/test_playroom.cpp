@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <cstdlib>
 #include <set>
+#include <vector>
 
 #include "core/field_laws.hpp"
 #include "core/refusal.hpp"
 #include "devlearn/playroom.hpp"
 #include "devlearn/random_agent.hpp"
+#include "devlearn/salient_events.hpp"
 
 using namespace devlearn;
 
@@ -228,4 +230,27 @@ TEST_CASE("nothing is done before an episode or after its end") {
   check_refused([&] { room.step(0); }, "step", kNone);
   room.begin(1);
   CHECK(!room.succeeded());
+}
+
+TEST_CASE(
+    "left to play, SalientEvents soon turns light and music on three times as often as by chance") {
+  PlayroomConfig config;
+  config.reward = 0.0;
+  config.ending = false;
+  const auto counts = [&](Agent& agent, std::uint64_t seed) {
+    Playroom room(config);
+    std::vector<Episode> episodes;
+    run_episodes(room, agent, {3, seed, 0, 100'000, {}}, episodes);
+    return room.counts();  // of the last
+  };
+  for (std::uint64_t seed = 200; seed < 203; ++seed) {
+    CAPTURE(seed);
+    RandomAgent random(seed);
+    SalientEvents agent({}, seed);
+    const auto by_chance = counts(random, seed), played = counts(agent, seed);
+    CHECK(played[Playroom::kLightOn] > 3 * by_chance[Playroom::kLightOn]);
+    CHECK(played[Playroom::kMusicOn] > 3 * by_chance[Playroom::kMusicOn]);
+    // Neither comes without the other for long: music is turned on in the light.
+    CHECK(played[Playroom::kMusicOn] < played[Playroom::kLightOn]);
+  }
 }
