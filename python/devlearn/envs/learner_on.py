@@ -42,8 +42,9 @@ class LearnerOn:
     alone, an ``AdaptiveLearner`` from cost and estimate, value learners from the cost. Motions are
     the environment's actions; those that ``info["action_mask"]`` rules out are not allowed. Where
     an episode is terminated, nothing follows, whether it ended well or not: the outcome has
-    ``arrived``. Where it is only truncated, it has not. ``info["collided"]``, where there is such,
-    is told, too.
+    ``arrived``. Where it is only truncated, it has not. ``info["collided"]`` and
+    ``info["event"]``, where there are such, are told, too; without the latter an arrival is event
+    0 and a touch event 1, as in a trial.
 
     Parameters
     ----------
@@ -258,6 +259,7 @@ class LearnerOn:
                 observation, gain, ended, cut, info = self._env.step(self._first_action + motion)
                 reward, terminated, truncated = _finite("reward", gain), bool(ended), bool(cut)
                 before = sef
+                collided = bool(info.get("collided", False))
                 situation, sef, estimate = self._senses(observation, terminated)
                 player.observe(
                     Outcome(
@@ -265,7 +267,8 @@ class LearnerOn:
                         cost=self._cost_of(reward, terminated),
                         estimate=estimate,
                         arrived=terminated,
-                        collided=bool(info.get("collided", False)),
+                        collided=collided,
+                        event=info.get("event", 0 if terminated else 1 if collided else -1),
                         sef=sef,
                         smf=reward if self._evaluation == "reward" else sef - before,
                     )

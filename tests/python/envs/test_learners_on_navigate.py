@@ -23,6 +23,7 @@ SEED = 4
 VALUE_LEARNERS = [
     agents.QLearning, agents.ExpectedSarsa, agents.SarsaLambda, agents.DynaQ,
     agents.PrioritizedSweeping, agents.LrtaStar, agents.RMax, agents.Appraisal,
+    agents.SalientEvents,
 ]  # fmt: skip
 # Each with what the environment's rewards are then.
 LEARNERS = {
@@ -65,4 +66,6 @@ def test_a_learner_makes_the_motions_that_it_makes_in_a_trial(name):
     assert env.actions == tuple(record.motion)
     assert list(episodes["steps"]) == list(record.rounds["steps"])
     assert list(episodes["terminated"]) == list(record.rounds["arrived"])
-    assert episodes["terminated"].any() or name in ("RandomAgent", "RMax", "Appraisal")
+    assert episodes["terminated"].any() or name in (
+        "RandomAgent", "RMax", "Appraisal", "SalientEvents",
+    )  # fmt: skip
