@@ -53,7 +53,7 @@ Playroom::Playroom(const Config& config) : config_((config.validate(), config)) 
 void Playroom::begin(std::uint64_t seed) {
   random_ = Random(seed, "playroom");
   state_ = {};
-  std::array<bool, kSide * kSide> taken{};
+  std::array<bool, std::size_t{kSide} * kSide> taken{};
   for (Square& square : state_.objects) {
     std::uint32_t number = random_.index(kSide * kSide);
     while (taken[number]) number = random_.index(kSide * kSide);
