@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "agent_snapshot.hpp"
+#include "candidates.hpp"
 
 namespace devlearn {
 
@@ -43,13 +44,9 @@ bool DynaQ::may_be_planned(Row row, int motion) const noexcept {
 void DynaQ::plan() {
   Random& random = table_.random();
   const Row row = tried_rows_[random.index(static_cast<std::uint32_t>(tried_rows_.size()))];
-  std::uint32_t candidates = 0;
-  for (int motion = 0; motion < table_.motion_count(); ++motion) {
-    candidates += may_be_planned(row, motion) ? 1 : 0;
-  }
-  std::uint32_t draw = random.index(candidates);
-  int motion = 0;
-  while (!may_be_planned(row, motion) || draw-- > 0) ++motion;
+  const auto candidate = [&](int each) { return may_be_planned(row, each); };
+  const std::uint32_t candidates = count_candidates(table_.motion_count(), candidate);
+  const int motion = nth_candidate(random.index(candidates), candidate);
 
   const std::size_t pair = table_.pair(row, motion);
   const bool tried = model_.tried(pair);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "agent_snapshot.hpp"
+#include "candidates.hpp"
 #include "devlearn/detail/require.hpp"
 #include "devlearn/math.hpp"
 #include "lines.hpp"
@@ -62,10 +63,9 @@ Choice Iac::choose(const Observation& observation) {
   } else {
     candidates = most_progress(regions_of(senses), observation.allowed);
   }
-  const auto count = std::count(candidates.begin(), candidates.end(), true);
-  std::uint32_t draw = random_.index(static_cast<std::uint32_t>(count));
-  int motion = 0;
-  while (!candidates[static_cast<std::size_t>(motion)] || draw-- > 0) ++motion;
+  const auto candidate = [&](int m) { return candidates[static_cast<std::size_t>(m)]; };
+  const int motion =
+      nth_candidate(random_.index(count_candidates(motion_count_, candidate)), candidate);
   last_ = point(senses, motion);
   waits_ = true;
   return {motion, Kind::kUnstated};

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "candidates.hpp"
 #include "learner_snapshot.hpp"
 
 namespace devlearn {
@@ -11,12 +12,8 @@ RandomAgent::RandomAgent(const AgentState& state, const std::string& source)
 
 Choice RandomAgent::choose(const Observation& observation) {
   const AllowedMotions allowed = observation.allowed;
-  int motions = 0;
-  for (int motion = 0; motion < observation.motion_count; ++motion) motions += allowed(motion);
-  auto draw = random_.index(static_cast<std::uint32_t>(motions));
-  int motion = 0;
-  while (!allowed(motion) || draw-- > 0) ++motion;
-  return {motion, Kind::kUnstated};
+  const std::uint32_t motions = count_candidates(observation.motion_count, allowed);
+  return {nth_candidate(random_.index(motions), allowed), Kind::kUnstated};
 }
 
 Development RandomAgent::observe(const Outcome&) { return {}; }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "agent_snapshot.hpp"
+#include "candidates.hpp"
 #include "lines.hpp"
 
 namespace devlearn {
@@ -58,12 +59,8 @@ Choice SalientEvents::choose(const Observation& observation) {
 // One of the candidates among the actions, each as likely.
 template <typename Candidate>
 int SalientEvents::draw(const Candidate& candidate) {
-  std::uint32_t candidates = 0;
-  for (int action = 0; action < actions(); ++action) candidates += candidate(action) ? 1 : 0;
-  std::uint32_t draw = candidates == 1 ? 0 : table_.random().index(candidates);
-  int action = 0;
-  while (!candidate(action) || draw-- > 0) ++action;
-  return action;
+  const std::uint32_t candidates = count_candidates(actions(), candidate);
+  return nth_candidate(candidates == 1 ? 0 : table_.random().index(candidates), candidate);
 }
 
 // One of the highest value, of those that do not run already: so no option calls itself.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "agent_snapshot.hpp"
+#include "candidates.hpp"
 #include "devlearn/detail/require.hpp"
 #include "devlearn/error.hpp"
 
@@ -62,12 +63,8 @@ Choice ValueTable::choose(Row row, double epsilon) {
   const auto candidate = [&](int motion) {
     return allowed(row, motion) && q_[pair(row, motion)] >= least;
   };
-  std::uint32_t candidates = 0;
-  for (int motion = 0; motion < motion_count_; ++motion) candidates += candidate(motion) ? 1 : 0;
-  std::uint32_t draw = candidates == 1 ? 0 : random_.index(candidates);
-  int motion = 0;
-  while (!candidate(motion) || draw-- > 0) ++motion;
-  return wait(row, motion);
+  const std::uint32_t candidates = count_candidates(motion_count_, candidate);
+  return wait(row, nth_candidate(candidates == 1 ? 0 : random_.index(candidates), candidate));
 }
 
 Transition ValueTable::observe(const Outcome& outcome) {
