@@ -23,7 +23,6 @@ from .._core import (
     Explanation,
     Kind,
     Learner,
-    MoverPath,
     Polyline,
     Rectangle,
     Robot,
@@ -32,6 +31,7 @@ from .._core import (
     World,
 )
 from .._markup import PIXEL, Frame, Lines, counted, element, number
+from ..analysis.outlines import corners, course
 from ..record import Record
 
 _SIDE = 360  # of an arena's longer side [pixels]
@@ -98,7 +98,7 @@ def _ground(world: World, time: float = 0.0) -> tuple[Frame, str, str]:
     solid, coarse = Lines.of(frame, rings).thinned(_MOST_POINTS)
     thin, coarser = Lines.of(frame, walls).thinned(_MOST_POINTS)
     outline = {"stroke": BLUE, "stroke_width": 7, "stroke_linejoin": "round"}
-    courses = Lines.of(frame, [_course(mover.course) for mover in world.movers])
+    courses = Lines.of(frame, [course(mover) for mover in world.movers])
     ways, coarsest = courses.thinned(_MOST_POINTS)
     ground = markup.clipped(
         frame,
@@ -125,7 +125,6 @@ def _ground(world: World, time: float = 0.0) -> tuple[Frame, str, str]:
 
 _ROUND = np.linspace(0.0, 2 * math.pi, 32, endpoint=False)
 _CIRCLE = np.column_stack([np.cos(_ROUND), np.sin(_ROUND)])
-_CORNERS = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
 
 
 def _rings(shape: Any) -> Iterable[npt.NDArray[np.float64]]:
@@ -133,23 +132,12 @@ def _rings(shape: Any) -> Iterable[npt.NDArray[np.float64]]:
     if isinstance(shape, Circle):
         yield np.array(shape.center) + shape.radius * _CIRCLE
     elif isinstance(shape, Rectangle):
-        angle = math.radians(shape.angle)
-        turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
-        yield np.array(shape.center) + (_CORNERS * shape.size) @ turn
+        yield corners(shape)
     elif not isinstance(shape, Polyline):
-        for turn_to, corners in ((1, shape.corners), *((-1, hole) for hole in shape.holes)):
-            x, y = (ring := np.array(corners, dtype=float)).T
+        for turn_to, points in ((1, shape.corners), *((-1, hole) for hole in shape.holes)):
+            x, y = (ring := np.array(points, dtype=float)).T
             area = np.dot(x - x[0], np.roll(y, -1) - np.roll(y, 1))
             yield ring[:: turn_to if area > 0 else -turn_to]
-
-
-def _course(course: Any) -> Sequence[tuple[float, float]]:
-    """Where a mover's centre goes: its path, or the box of its walk [m]."""
-    if isinstance(course, MoverPath):
-        points = course.points
-        return [*points, points[0]] if course.then == "around" else points
-    (x, y), (right, top) = course.low, course.high
-    return [(x, y), (right, y), (right, top), (x, top), (x, y)]
 
 
 def _body(frame: Frame, radius: float, pose: Sequence[float]) -> str:

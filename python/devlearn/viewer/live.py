@@ -413,8 +413,7 @@ def view(
     Parameters
     ----------
     path
-        A file to write, .rrd; what is there is replaced. ``rerun run.rrd`` opens it, also while it
-        grows.
+        A file to write, .rrd; what is there is replaced. ``rerun run.rrd`` opens it.
     connect
         The address of a viewer that runs, such as "rerun+http://127.0.0.1:9876/proxy".
 
