@@ -56,17 +56,12 @@ void bind_appraisal(py::module_& m) {
       "falls.");
   bind_appraisal_explanation(m);
   cls.def_property_readonly(
-         "epsilon",
-         [](const Appraisal& self) {
-           require_free(&self, own_name(self), InHand::For::kReading);
-           return self.epsilon();
-         },
+         "epsilon", [](const Appraisal& self) { return readable(self).epsilon(); },
          "The probability of a random motion, at present.")
       .def(
           "explain",
           [](const Appraisal& self, Whole<SituationTag> situation) {
-            require_free(&self, own_name(self), InHand::For::kReading);
-            return self.explain(situation.value);
+            return readable(self).explain(situation.value);
           },
           py::arg("situation"),
           "How a situation is appraised, an AppraisalExplanation; None for one never met. Draws "

@@ -8,23 +8,15 @@
 namespace devlearn::python {
 
 void bind_attention(py::module_& m) {
-  const auto at_rest = [](const Attention& task) -> const Attention& {
-    require_idle(static_cast<const Task*>(&task), "Attention");
-    return task;
-  };
   def_task<Attention>(
       m, "Attention",
       "A room with a robot on two wheels, which can sound, and a toy (Oudeyer, Kaplan & Hafner\n"
       "2007, section VI). A motion is (l, r, f), the speeds of both wheels in [-1, 1] and the\n"
       "frequency of a sound in [0, 1]; what is sensed is the distance to the toy, with noise [m].\n"
+      "A situation is so many tenths of the room's side of it, the last one all beyond.\n"
       "Below 1/3 of f the toy goes anywhere, below 2/3 it stays, else it jumps to the robot. "
       "Nothing\n"
       "is to be reached, and a step costs nothing: what matters is where attention goes.")
-      .def_property_readonly(
-          "situation_count", &Attention::situation_count,
-          "Situations are tenths of the room's side, of the distance: 0 ... situation_count - 1, "
-          "the "
-          "last for all beyond.")
       .def_property_readonly(
           "motors",
           [](const Attention& self) {
@@ -41,13 +33,13 @@ void bind_attention(py::module_& m) {
           "What the toy does at a motion: 0, it goes anywhere; 1, it stays; 2, it jumps to the "
           "robot. Raises InvalidValue.")
       .def_property_readonly(
-          "robot", [=](const Attention& self) { return at_rest(self).robot(); },
+          "robot", [](const Attention& self) { return idle(self, "Attention").robot(); },
           "Where the robot is: a Pose [m, m, degrees].")
       .def_property_readonly(
-          "toy", [=](const Attention& self) { return at_rest(self).toy(); },
+          "toy", [](const Attention& self) { return idle(self, "Attention").toy(); },
           "Where the toy is [m].")
       .def_property_readonly(
-          "distance", [=](const Attention& self) { return at_rest(self).distance(); },
+          "distance", [](const Attention& self) { return idle(self, "Attention").distance(); },
           "Between them, as it is sensed [m].");
 }
 

@@ -13,11 +13,6 @@ BalanceState state_of(const Four& numbers) {
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-Balance& idle(Balance& task) {
-  require_idle(&task, "Balance");
-  return task;
-}
-
 }  // namespace
 
 void bind_balance(py::module_& m) {
@@ -37,22 +32,21 @@ void bind_balance(py::module_& m) {
       "its rate [degrees/s], the wheels' angle, by which they have rolled, and its rate.")
       .def(
           "begin_at",
-          [](Balance& self, const Four& state) { idle(self).begin_at(state_of(state)); },
+          [](Balance& self, const Four& state) { idle(self, "Balance").begin_at(state_of(state)); },
           py::arg("state"),
           "An episode begins in this state, four numbers as the senses. Raises InvalidValue for "
           "numbers that are not finite, and for an angle beyond the limit.")
       .def_property_readonly(
           "state",
           [](Balance& self) {
-            const BalanceState now = idle(self).state();
+            const BalanceState now = idle(self, "Balance").state();
             const Four numbers{now.angle, now.rate, now.wheel, now.wheel_rate};
             return py::array_t<double>(4, numbers.data());
           },
           "Four numbers as the senses, after the end, too.")
       .def_property_readonly(
-          "time", [](Balance& self) { return idle(self).time(); }, "Since the episode began [s].")
-      .def_property_readonly("situation_count", &Balance::situation_count,
-                             "How many situations there are.")
+          "time", [](Balance& self) { return idle(self, "Balance").time(); },
+          "Since the episode began [s].")
       .def(
           "situation_of",
           [](const Balance& self, const Four& state) { return self.situation_of(state_of(state)); },

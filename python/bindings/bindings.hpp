@@ -47,6 +47,7 @@ void bind_attention(py::module_& m);
 void bind_operant_conditioning(py::module_& m);
 void bind_salient_events(py::module_& m);
 void bind_tasks(py::module_& m);
+void bind_balance(py::module_& m);
 void bind_playroom(py::module_& m);
 void bind_appraisal(py::module_& m);
 void bind_foraging(py::module_& m);

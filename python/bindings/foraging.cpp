@@ -14,14 +14,8 @@ void bind_foraging(py::module_& m) {
       "or the fence it stays. A\nsituation is 16 times the cell, numbered row by row, walls too, "
       "and what is there. The event of\na step is 0 if a prey was eaten. An episode has no end of "
       "its own.")
-      .def_property_readonly("situation_count", &Foraging::situation_count,
-                             "Situations have ids below this one.")
       .def(
-          "drawn",
-          [](const Foraging& self) {
-            require_idle(&self, "Task");
-            return self.drawn();
-          },
+          "drawn", [](const Foraging& self) { return idle(self, "Task").drawn(); },
           "The grid, a line a row: # a wall, F the fox, h a hare, r a rabbit, w water, = the "
           "fence, "
           "o a\nlair that is closed, O one with its rabbit out, . one that is empty. Raises "

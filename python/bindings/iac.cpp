@@ -59,11 +59,6 @@ py::object array_of_regions(const std::vector<IacRegion>& regions, std::size_t d
   return numpy.attr("array")(rows, py::arg("dtype") = fields);
 }
 
-const Iac& at_rest(const Iac& agent) {
-  require_free(&agent, own_name(agent), InHand::For::kReading);
-  return agent;
-}
-
 void def_explanation(py::module_& m) {
   py::class_<IacRegion> region(m, "IacRegion", "A region of the sensorimotor space of an Iac.");
   region
@@ -122,19 +117,12 @@ void def_explanation(py::module_& m) {
 
 void bind_iac(py::module_& m) {
   def_explanation(m);
-  const py::object config = def_config<IacConfig>(m, "The settings of Iac.");
-  py::class_<Iac, std::shared_ptr<Iac>> cls(
+  auto cls = def_agent_without_init<Iac>(
       m, "Iac",
       "Intelligent adaptive curiosity (Oudeyer, Kaplan & Hafner 2007): it seeks the region of its\n"
-      "sensorimotor space in which its predictions improve the most, and is not led by rewards.\n\n"
-      "In a trial: Trial(world, agent=Iac()). It is saved with its trial, pickled and copied.\n\n"
-      "Parameters: config, an IacConfig, also Iac.Config (None: the defaults); seed of its draws;\n"
-      "motors, a matrix of numbers in [-1e9, 1e9], a row a motion (None: one number, from 0 of "
-      "the\n"
-      "first motion to 1 of the last).\nRaises InvalidValue.");
-  cls.attr("Config") = config;
-  def_pickling_of_agent(cls);
-  def_calls(cls);
+      "sensorimotor space in which its predictions improve the most, and is not led by rewards.",
+      "; motors, a matrix\nof numbers in [-1e9, 1e9], a row a motion (None: one number, from 0 of "
+      "the first motion to 1\nof the last)");
   cls.def(py::init(
               [](const std::optional<IacConfig>& given, Whole<SeedTag> seed, const Matrix& motors) {
                 return std::make_shared<Iac>(given.value_or(IacConfig{}), seed.value,
@@ -142,14 +130,12 @@ void bind_iac(py::module_& m) {
               }),
           py::arg("config") = py::none(), py::arg("seed") = 0, py::arg("motors") = py::none())
       .def_property_readonly(
-          "config", [](const Iac& self) { return self.config(); }, "Its settings.")
-      .def_property_readonly(
-          "motors", [](const Iac& self) { return matrix_of(at_rest(self).motors()); },
+          "motors", [](const Iac& self) { return matrix_of(readable(self).motors()); },
           "A copy of the matrix of motors; None where it is not needed yet.")
       .def(
           "explain",
           [](const Iac& self, const KeptObservation& observation) {
-            return at_rest(self).explain(SeenObservation(observation));
+            return readable(self).explain(SeenObservation(observation));
           },
           py::arg("observation"),
           "Why motions are chosen for what is observed: an IacExplanation. Draws and changes "
@@ -159,7 +145,7 @@ void bind_iac(py::module_& m) {
           [](const Iac& self, const KeptObservation& observation,
              Whole<MotionTag> motion) -> std::optional<py::array_t<double>> {
             std::optional<std::vector<double>> next =
-                at_rest(self).predict(SeenObservation(observation), motion.value);
+                readable(self).predict(SeenObservation(observation), motion.value);
             if (!next) return std::nullopt;
             return py::array_t<double>(moved_array<double>(std::move(*next)));
           },
@@ -169,18 +155,14 @@ void bind_iac(py::module_& m) {
       .def(
           "regions",
           [](const Iac& self) {
-            const std::vector<IacRegion> regions = at_rest(self).regions();
+            const std::vector<IacRegion> regions = readable(self).regions();
             return array_of_regions(regions, regions.empty() ? 0 : regions[0].lower.size());
           },
           "All regions that ever were, by their number: a structured array with the fields of an "
           "IacRegion.")
       .def(
-          "tree", [](const Iac& self) { return to_text(at_rest(self).regions()); },
-          "The regions as a text, each line below that of the region that it was split from.")
-      .def("__repr__", [](const py::object& self) {
-        return py::str("<devlearn.agents.{}: {!r}>")
-            .format(py::type::of(self).attr("__name__"), self.attr("config"));
-      });
+          "tree", [](const Iac& self) { return to_text(readable(self).regions()); },
+          "The regions as a text, each line below that of the region that it was split from.");
 }
 
 }  // namespace devlearn::python

@@ -5,11 +5,6 @@
 namespace devlearn::python {
 namespace {
 
-const OperantConditioning& readable(const OperantConditioning& agent) {
-  require_free(&agent, own_name(agent), InHand::For::kReading);
-  return agent;
-}
-
 void bind_explanation_of_conditioning(py::module_& m) {
   using E = ConditioningExplanation;
   py::class_<E> why(m, "ConditioningExplanation",

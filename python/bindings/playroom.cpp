@@ -30,11 +30,6 @@ py::dict squares_of(const Playroom& self) {
   return squares;
 }
 
-const Playroom& idle(const Playroom& self) {
-  require_idle(&self, "Playroom");
-  return self;
-}
-
 }  // namespace
 
 void bind_playroom(py::module_& m) {
@@ -51,28 +46,26 @@ void bind_playroom(py::module_& m) {
   cls.attr("MOTIONS") = names<Playroom::Motion>(Playroom::kMotions);
   cls.attr("EVENTS") = names<Playroom::Event>(Playroom::kEvents);
   cls.attr("OBJECTS") = names<Playroom::Object>(Playroom::kObjects);
-  cls.def_property_readonly("situation_count", &Playroom::situation_count,
-                            "Situations are 0 ... situation_count - 1.")
-      .def_property_readonly(
-          "squares", [](const Playroom& self) { return squares_of(idle(self)); },
-          "Where the eye, the hand, the marker and each object are, by name: (row, column), each 0 "
-          "... 4, row 0 in the north. Before an episode all are (0, 0).")
+  cls.def_property_readonly(
+         "squares", [](const Playroom& self) { return squares_of(idle(self, "Playroom")); },
+         "Where the eye, the hand, the marker and each object are, by name: (row, column), each 0 "
+         "... 4, row 0 in the north. Before an episode all are (0, 0).")
       .def_property_readonly(
           "counts",
           [](const Playroom& self) {
             py::dict counts;
             for (int i = 0; i < Playroom::kEvents; ++i) {
               const auto event = static_cast<Playroom::Event>(i);
-              counts[Playroom::name(event)] = idle(self).counts()[event];
+              counts[Playroom::name(event)] = idle(self, "Playroom").counts()[event];
             }
             return counts;
           },
           "How often each event came in the episode, by name.")
       .def_property_readonly(
-          "light", [](const Playroom& self) { return idle(self).state().light; },
+          "light", [](const Playroom& self) { return idle(self, "Playroom").state().light; },
           "Whether it is light.")
       .def_property_readonly(
-          "music", [](const Playroom& self) { return idle(self).state().music; },
+          "music", [](const Playroom& self) { return idle(self, "Playroom").state().music; },
           "Whether there is music.");
 }
 

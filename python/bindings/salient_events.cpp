@@ -54,24 +54,16 @@ void bind_salient_events(py::module_& m) {
       "is rewarding in itself while the option's model does not foresee it. Epsilon-greedy over\n"
       "motions and options.")
       .def_property_readonly(
-          "events",
-          [](const SalientEvents& self) {
-            require_free(&self, own_name(self), InHand::For::kReading);
-            return self.events();
-          },
+          "events", [](const SalientEvents& self) { return readable(self).events(); },
           "The events for which there is an option, in the order in which they first came.")
       .def_property_readonly(
           "intrinsic_reward",
-          [](const SalientEvents& self) {
-            require_free(&self, own_name(self), InHand::For::kReading);
-            return self.intrinsic_reward();
-          },
+          [](const SalientEvents& self) { return readable(self).intrinsic_reward(); },
           "Intrinsic reward of the last outcome, r_i.")
       .def(
           "explain",
           [](const SalientEvents& self, Whole<SituationTag> situation) {
-            require_free(&self, own_name(self), InHand::For::kReading);
-            return self.explain(situation.value);
+            return readable(self).explain(situation.value);
           },
           py::arg("situation"),
           "What it makes of a situation, a SalientEventsExplanation; None for one never met. Draws "

@@ -1,12 +1,12 @@
 #include "tasks.hpp"
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "agents.hpp"
+#include "progress.hpp"
 
 namespace devlearn::python {
 namespace {
@@ -27,12 +27,6 @@ struct StepLimitTag {
   static constexpr const char* allowed = "a whole number in [1, 2^63 - 1]";
 };
 
-using Clock = std::chrono::steady_clock;
-constexpr auto kBetweenTold = std::chrono::milliseconds(100);
-
-// progress(done, total)
-using Told = py::typing::Callable<py::object(std::int64_t, std::int64_t)>;
-
 py::array array_of_episodes(const std::vector<Episode>& episodes) {
   return py::array_t<Episode>(static_cast<py::ssize_t>(episodes.size()), episodes.data());
 }
@@ -45,14 +39,9 @@ py::array run(const py::object& self, const py::object& given, Whole<EpisodesTag
   const InHand in_hand(task, *agent);
   self.attr("interrupted") = py::none();
   std::vector<Episode> episodes;
-  auto told = Clock::now();
-  Watch watch([&] {
-    if (progress && Clock::now() - told >= kBetweenTold) {
-      (*progress)(static_cast<std::int64_t>(episodes.size()), count.value);
-      told = Clock::now();
-    }
-    return stop && stop->is_set();
-  });
+  Progress told(progress, stop, count.value);
+  Watch watch(
+      [&] { return told.looks([&] { return static_cast<std::int64_t>(episodes.size()); }); });
   try {
     {
       const NoGil no_gil;
@@ -61,18 +50,12 @@ py::array run(const py::object& self, const py::object& given, Whole<EpisodesTag
                    episodes);
     }
     watch.rethrow();
-    const auto done = static_cast<std::int64_t>(episodes.size());
-    if (progress && done == count.value) (*progress)(done, count.value);
+    told.end();
   } catch (const std::exception&) {
     self.attr("interrupted") = array_of_episodes(episodes);
     throw;
   }
   return array_of_episodes(episodes);
-}
-
-Task& idle(Task& task) {
-  require_idle(&task, "Task");
-  return task;
 }
 
 }  // namespace
@@ -89,21 +72,25 @@ void bind_tasks(py::module_& m) {
   cls.attr("interrupted") = py::none();
   cls.def_property_readonly("motion_count", &Task::motion_count,
                             "M: motions are 0 ... motion_count - 1.")
+      .def_property_readonly("situation_count", &Task::situation_count,
+                             "Situations are 0 ... situation_count - 1.")
       .def(
-          "begin", [](Task& self, Whole<SeedTag> seed) { idle(self).begin(seed.value); },
+          "begin", [](Task& self, Whole<SeedTag> seed) { idle(self, "Task").begin(seed.value); },
           py::arg("seed") = 0,
           "An episode begins, whatever was before. All that is by chance in it follows from seed, "
           "in [0, 2**64 - 1]. Raises InvalidValue.")
       .def(
-          "observation", [](Task& self) { return KeptObservation(idle(self).observation()); },
+          "observation",
+          [](Task& self) { return KeptObservation(idle(self, "Task").observation()); },
           "What is observed now. Raises InvalidValue where no episode is under way.")
       .def(
-          "step", [](Task& self, Whole<MotionTag> motion) { return idle(self).step(motion.value); },
+          "step",
+          [](Task& self, Whole<MotionTag> motion) { return idle(self, "Task").step(motion.value); },
           py::arg("motion"),
           "Executes a motion. Where the episode has ended, well or not, the outcome has arrived. "
           "Raises InvalidValue for a motion that is none, and where no episode is under way.")
       .def_property_readonly(
-          "succeeded", [](Task& self) { return idle(self).succeeded(); },
+          "succeeded", [](Task& self) { return idle(self, "Task").succeeded(); },
           "Whether the episode that has ended ended well.");
   m.def(
       "run_episodes", &run, py::arg("task"), py::arg("agent"), py::arg("episodes"), py::kw_only(),

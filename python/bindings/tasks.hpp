@@ -10,7 +10,12 @@
 
 namespace devlearn::python {
 
-void bind_balance(py::module_& m);
+/// A task that Python calls, as `name`; refused while another thread's run has it in hand.
+template <class T>
+T& idle(T& task, const char* name) {
+  require_idle(static_cast<const Task*>(&task), name);
+  return task;
+}
 
 /// The class of a task T, made from its Config, and that of its settings. What all tasks have
 /// stands in Task.

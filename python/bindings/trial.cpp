@@ -2,7 +2,6 @@
 
 #include <pybind11/typing.h>
 
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "config.hpp"
 #include "loop/config_file.hpp"
 #include "parts.hpp"
+#include "progress.hpp"
 #include "record_object.hpp"
 
 namespace devlearn::python {
@@ -62,12 +62,6 @@ py::object learner_bytes(const py::object& self) {
   return learner.attr("to_bytes")();
 }
 
-using Clock = std::chrono::steady_clock;
-constexpr auto kBetweenTold = std::chrono::milliseconds(100);
-
-// progress(done, total)
-using Told = py::typing::Callable<py::object(std::int64_t, std::int64_t)>;
-
 /// How Python asks for a phase.
 struct Asked {
   bool echoes, rounds_only, learner;
@@ -93,15 +87,8 @@ RecordObject run_phase(py::object& self, std::int64_t total, bool of_rounds, con
   const py::object learner = asked.learner ? learner_bytes(self) : py::none();
   const InHand in_hand(trial, InHand::For::kRunning), tally_in_hand(asked.tally);
   Record record;
-  auto told = Clock::now();
-  bool stopped = false;
-  Watch watch([&] {
-    if (asked.progress && Clock::now() - told >= kBetweenTold) {
-      (*asked.progress)(finished(record, of_rounds), total);
-      told = Clock::now();
-    }
-    return stopped = asked.stop && asked.stop->is_set();
-  });
+  Progress progress(asked.progress, asked.stop, total);
+  Watch watch([&] { return progress.looks([&] { return finished(record, of_rounds); }); });
   try {
     {
       const NoGil no_gil;
@@ -109,7 +96,7 @@ RecordObject run_phase(py::object& self, std::int64_t total, bool of_rounds, con
             RunOptions{asked.echoes, std::ref(watch), asked.rounds_only, asked.tally});
     }
     watch.rethrow();
-    if (asked.progress && !stopped) (*asked.progress)(total, total);
+    progress.end();
   } catch (const std::exception&) {
     if (!record.rounds.empty())
       self.attr("interrupted") = as_record(trial, std::move(record), learner);

@@ -54,11 +54,7 @@ void bind_value_agents(py::module_& m) {
       "what\n"
       "came of each motion when it was last tried, those first that change most.")
       .def_property_readonly(
-          "updates",
-          [](const PrioritizedSweeping& self) {
-            require_free(&self, own_name(self), InHand::For::kReading);
-            return self.updates();
-          },
+          "updates", [](const PrioritizedSweeping& self) { return readable(self).updates(); },
           "How many updates there have been.");
   def_value_agent<LrtaStar>(
       m, "LrtaStar",
@@ -73,8 +69,7 @@ void bind_value_agents(py::module_& m) {
       .def(
           "visits",
           [](const RMax& self, Whole<SituationTag> situation, Whole<MotionTag> motion) {
-            require_free(&self, own_name(self), InHand::For::kReading);
-            return self.visits(situation.value, motion.value);
+            return readable(self).visits(situation.value, motion.value);
           },
           py::arg("situation"), py::arg("motion"),
           "How often a motion was tried in a situation, at most m: then it is known. Raises "

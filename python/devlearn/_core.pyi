@@ -3467,9 +3467,9 @@ class Iac:
 
     In a trial: Trial(world, agent=Iac()). It is saved with its trial, pickled and copied.
 
-    Parameters: config, an IacConfig, also Iac.Config (None: the defaults); seed of its draws;
-    motors, a matrix of numbers in [-1e9, 1e9], a row a motion (None: one number, from 0 of the
-    first motion to 1 of the last).
+    Parameters: config, a IacConfig, also Iac.Config (None: the defaults); seed of its draws; motors, a matrix
+    of numbers in [-1e9, 1e9], a row a motion (None: one number, from 0 of the first motion to 1
+    of the last).
     Raises InvalidValue.
     """
 
@@ -3977,6 +3977,11 @@ class Task:
         M: motions are 0 ... motion_count - 1.
         """
     @property
+    def situation_count(self) -> int:
+        """
+        Situations are 0 ... situation_count - 1.
+        """
+    @property
     def succeeded(self) -> bool:
         """
         Whether the episode that has ended ended well.
@@ -4099,11 +4104,6 @@ class Playroom(Task):
         Whether there is music.
         """
     @property
-    def situation_count(self) -> int:
-        """
-        Situations are 0 ... situation_count - 1.
-        """
-    @property
     def squares(self) -> dict[str, typing.Any]:
         """
         Where the eye, the hand, the marker and each object are, by name: (row, column), each 0 ... 4, row 0 in the north. Before an episode all are (0, 0).
@@ -4205,6 +4205,7 @@ class Attention(Task):
     A room with a robot on two wheels, which can sound, and a toy (Oudeyer, Kaplan & Hafner
     2007, section VI). A motion is (l, r, f), the speeds of both wheels in [-1, 1] and the
     frequency of a sound in [0, 1]; what is sensed is the distance to the toy, with noise [m].
+    A situation is so many tenths of the room's side of it, the last one all beyond.
     Below 1/3 of f the toy goes anywhere, below 2/3 it stays, else it jumps to the robot. Nothing
     is to be reached, and a step costs nothing: what matters is where attention goes.
 
@@ -4237,11 +4238,6 @@ class Attention(Task):
     def robot(self) -> devlearn._types.Pose:
         """
         Where the robot is: a Pose [m, m, degrees].
-        """
-    @property
-    def situation_count(self) -> int:
-        """
-        Situations are tenths of the room's side, of the distance: 0 ... situation_count - 1, the last for all beyond.
         """
     @property
     def toy(self) -> tuple[float, float]:
@@ -4609,11 +4605,6 @@ class Balance(Task):
     def config(self) -> BalanceConfig:
         """
         Its settings.
-        """
-    @property
-    def situation_count(self) -> int:
-        """
-        How many situations there are.
         """
     @property
     def state(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -4991,11 +4982,6 @@ class Foraging(Task):
     def config(self) -> ForagingConfig:
         """
         Its settings.
-        """
-    @property
-    def situation_count(self) -> int:
-        """
-        Situations have ids below this one.
         """
 
 class NoiseDef:

@@ -43,21 +43,9 @@ gymnasium.register(
     entry_point="devlearn.envs.navigate:Navigate",
     vector_entry_point="devlearn.envs.navigate_vector:NavigateVector",
 )
-gymnasium.register(
-    "devlearn/Attention-v0",
-    entry_point="devlearn.envs.task_env:TaskEnv",
-    kwargs={"task": "Attention"},
-)
-gymnasium.register(
-    "devlearn/Balance-v0", entry_point="devlearn.envs.task_env:TaskEnv", kwargs={"task": "Balance"}
-)
-gymnasium.register(
-    "devlearn/Playroom-v0",
-    entry_point="devlearn.envs.task_env:TaskEnv",
-    kwargs={"task": "Playroom"},
-)
-gymnasium.register(
-    "devlearn/Foraging-v0",
-    entry_point="devlearn.envs.task_env:TaskEnv",
-    kwargs={"task": "Foraging"},
-)
+for _task in ("Attention", "Balance", "Foraging", "Playroom"):
+    gymnasium.register(
+        f"devlearn/{_task}-v0",
+        entry_point="devlearn.envs.task_env:TaskEnv",
+        kwargs={"task": _task},
+    )

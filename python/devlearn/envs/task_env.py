@@ -14,8 +14,6 @@ from ..errors import InvalidValue
 from .others import is_whole
 from .view import require_seed
 
-_MOST_SITUATIONS = 2**63 - 1
-
 
 class TaskEnv(gymnasium.Env[Any, int]):
     """A task of ``devlearn.tasks``, such as ``devlearn/Balance-v0``.
@@ -44,8 +42,7 @@ class TaskEnv(gymnasium.Env[Any, int]):
         self._task.begin(0)
         self._seen = self._task.observation()
         self._under_way = False
-        count = int(getattr(self._task, "situation_count", _MOST_SITUATIONS))
-        situations: Any = spaces.Discrete(count)
+        situations: Any = spaces.Discrete(self._task.situation_count)
         if self._seen.senses is not None:
             most = np.finfo(np.float64).max
             box = spaces.Box(-most, most, self._seen.senses.shape, dtype=np.float64)

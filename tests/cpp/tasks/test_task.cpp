@@ -21,6 +21,7 @@ using namespace devlearn;
 class Walk final : public Task {
  public:
   int motion_count() const noexcept override { return 2; }
+  SituationId situation_count() const noexcept override { return 7; }
   void begin(std::uint64_t seed) override {
     begun.push_back(seed);
     place_ = 1 + static_cast<int>(Random(seed, "walk").index(5));

@@ -74,15 +74,14 @@ class Attention final : public Task {
   explicit Attention(const Config& config = {});
 
   int motion_count() const noexcept override { return static_cast<int>(motors_.rows()); }
+  /// Tenths of the room's side, of what is sensed; the last one is also all beyond.
+  SituationId situation_count() const noexcept override { return 15; }
   void begin(std::uint64_t seed) override;
   Observation observation() const override;
   Outcome step(int motion) override;
   /// Whether an episode has ended: nothing can go wrong.
   bool succeeded() const noexcept override { return left_ == 0; }
 
-  /// Situations are 0 ... situation_count() - 1: tenths of the room's side, of what is sensed; the
-  /// last one is also all beyond.
-  SituationId situation_count() const noexcept { return 15; }
   const Config& config() const noexcept { return config_; }  ///< its settings
   /// (l, r, f) of each motion; f varies fastest.
   const Motors& motors() const noexcept { return motors_; }

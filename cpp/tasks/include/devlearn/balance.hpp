@@ -101,6 +101,7 @@ class Balance final : public Task {
   explicit Balance(const Config& config = {});
 
   int motion_count() const noexcept override { return static_cast<int>(config_.torques.size()); }
+  SituationId situation_count() const noexcept override;
   void begin(std::uint64_t seed) override;
   /// An episode begins in this state. Throws InvalidValue for numbers that are not finite, or an
   /// angle beyond the limit.
@@ -110,8 +111,6 @@ class Balance final : public Task {
   bool succeeded() const noexcept override { return ended_ && stands(); }
 
   const Config& config() const noexcept { return config_; }  ///< its settings
-  /// How many situations there are.
-  SituationId situation_count() const noexcept;
   /// Which of them a state is.
   SituationId situation_of(const BalanceState& state) const noexcept;
   /// SEF of a state.

@@ -65,6 +65,7 @@ class Foraging final : public Task {
   explicit Foraging(const Config& config = {});
 
   int motion_count() const noexcept override;
+  SituationId situation_count() const noexcept override;
   void begin(std::uint64_t seed) override;
   Observation observation() const override;
   Outcome step(int motion) override;
@@ -72,8 +73,6 @@ class Foraging final : public Task {
   bool succeeded() const noexcept override { return false; }
 
   const Config& config() const noexcept { return config_; }  ///< its settings
-  /// Situations have ids below this one.
-  SituationId situation_count() const noexcept;
   /// The grid, a line a row: # a wall, F the fox, h a hare, r a rabbit, w water, = the fence, o a
   /// lair that is closed, O one with its rabbit out, . one that is empty. Throws InvalidValue where
   /// no episode is under way.

@@ -105,14 +105,15 @@ class Playroom final : public Task {
   explicit Playroom(const Config& config = {});
 
   int motion_count() const noexcept override { return kMotions; }
+  SituationId situation_count() const noexcept override {
+    return SituationId{1} << (3 * kObjects + 3);
+  }
   void begin(std::uint64_t seed) override;
   Observation observation() const override;
   Outcome step(int motion) override;
   bool succeeded() const noexcept override { return succeeded_; }
 
   const Config& config() const noexcept { return config_; }  ///< its settings
-  /// Situations are 0 ... situation_count - 1.
-  SituationId situation_count() const noexcept { return SituationId{1} << (3 * kObjects + 3); }
   /// Where everything is; before an episode in the north-western square.
   const State& state() const noexcept { return state_; }
   /// How often each event came in the episode, by Event.

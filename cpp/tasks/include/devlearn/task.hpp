@@ -19,6 +19,8 @@ class Task {
   virtual ~Task() = default;
   /// M: motions are 0 ... motion_count - 1.
   virtual int motion_count() const noexcept = 0;
+  /// Situations are 0 ... situation_count - 1.
+  virtual SituationId situation_count() const noexcept = 0;
   /// An episode begins, whatever was before.
   virtual void begin(std::uint64_t seed) = 0;
   /// What is observed now; views in it are valid until the next call of the task. Throws
